@@ -102,8 +102,12 @@ def shapes(chain: Chain, coaxial: Sequence[bool], tol: Tolerances) -> tuple[Shap
 
 
 def _solvable(n: int, threes: list[Shape]) -> Iterator[Shape]:
-    """Arms of n revolute joints known by three axes that meet or are parallel."""
-    if n == 6 and threes:
+    """Arms of n revolute joints known by three axes that meet or are parallel.
+
+    Four that meet in one point, or are parallel, leave an arm of six joints singular everywhere.
+    """
+    starts = {shape.joints[0] for shape in threes}
+    if n == 6 and threes and not any(start + 1 in starts for start in starts):
         first = min(threes, key=lambda shape: shape.parallel)
         yield Shape("Pieper", first.joints, first.error, first.parallel)
     meeting = (shape for shape in threes if not shape.parallel)

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from poekin.analysis.axes import AxisPair, axes
+from poekin.analysis.dexterity.singularity import singularity
 from poekin.errors import InputError
 from poekin.formats.load import load
 from poekin.groups import se3
@@ -23,7 +24,7 @@ def made(*rows):
 
 
 WRIST = [((0, 0, 1), (1, 0, 0)), ((0, 1, 0), (1, 0, 0)), ((1, 0, 0), (0, 0, 0))]
-PLANE = [((0, 0, 1), (x, 0, 0)) for x in (0.0, 0.5, 0.9)]
+PLANE = [((0, 1, 0), (x, 0, 0)) for x in (0.0, 0.5, 0.9)]
 SHOULDER = [((0, 0, 1), (0, 0, 0)), ((0, 1, 0), (0, 0, 0)), ((1, 0, 0), (0, 0, 0))]
 ELBOW = [((0, 1, 0), (0.5, 0, 0))]
 
@@ -69,6 +70,23 @@ def test_parallel_perpendicular_intersecting_and_coaxial_are_said():
         (1, 3, False),
     }
     assert axes(made(*PLANE)).pairs[0].relation == "parallel, 500 mm apart"
+
+
+@pytest.mark.parametrize(
+    "four",
+    [
+        [((0, 0, 1), (x, y, 0)) for x, y in ((0, 0), (0.5, 0), (0.9, 0.1), (1.0, 0.4))],
+        [(w, (0, 0, 0)) for w in ((0, 0, 1), (0, 1, 0), (1, 0, 0), (0, 0.6, 0.8))],
+    ],
+    ids=["parallel", "through one point"],
+)
+def test_an_arm_with_four_such_axes_in_a_row_is_singular_and_no_arm_of_pieper(four):
+    rest = [((0, 1, 0), (1.2, 0, 0.3)), ((1, 0, 0), (0.2, 0.4, 0.7))]
+    for arm in (made(*four, *rest), made(*rest, *four), made(rest[0], *four, rest[1])):
+        assert singularity(arm, np.array([0.3, 0.8, -0.5, 0.9, 0.4, -1.1])).rank < 6
+        kinds = [shape.kind for shape in axes(arm).shapes]
+        assert len(kinds) == 2
+        assert "Pieper" not in kinds
 
 
 def test_shapes_are_found_where_they_are_and_not_where_they_miss():
@@ -129,7 +147,6 @@ def test_tolerances_out_of_range_are_refused(options):
 def test_every_shape_names_its_joints_and_by_how_much_it_misses():
     assert [(s.kind, s.joints, s.summary()) for s in axes(made(*PLANE, *WRIST)).shapes] == [
         ("three parallel axes", (1, 2, 3), "joints 1, 2 and 3: three parallel axes (within 0°)"),
-        ("three parallel axes", (2, 3, 4), "joints 2, 3 and 4: three parallel axes (within 0°)"),
         ("spherical wrist", (4, 5, 6), "joints 4, 5 and 6: spherical wrist, the axes meet in one point (within 0 mm)"),
         ("Pieper", (4, 5, 6), "Pieper: joints 4, 5 and 6: three axes meet in one point, so that the inverse kinematics "
          "has a closed form"),
@@ -148,7 +165,7 @@ def test_every_shape_names_its_joints_and_by_how_much_it_misses():
         == "S-R-S: a spherical shoulder, an elbow and a spherical wrist, like a human arm"
     )
     assert "Pieper" not in kinds
-    middle = made(PLANE[0], *SHOULDER, PLANE[1])
+    middle = made(PLANE[1], *SHOULDER, PLANE[2])
     assert [(s.kind, s.joints) for s in axes(middle).shapes if s.kind.startswith("spherical")] == [
         ("spherical joint", (2, 3, 4))
     ]
@@ -227,7 +244,7 @@ def test_parallel_neighbours_along_one_line_are_one_joint_and_solve_no_arm(first
 
 
 def test_three_parallel_axes_stay_a_shape_beside_another_along_the_last_of_them():
-    shapes = axes(made(*PLANE, (PLANE[2][0], (0.9, 0, 1.0)))).shapes
+    shapes = axes(made(*PLANE, (PLANE[2][0], (0.9, 1.0, 0)))).shapes
     assert [(s.kind, s.joints) for s in shapes] == [("three parallel axes", (1, 2, 3))]
 
 

@@ -308,7 +308,7 @@ def test_the_head_says_where_the_arm_is_from_and_nothing_ends_a_comment():
         assert max(map(len, text[:600].splitlines())) < 115
     for write in (emit.c, emit.python):
         with pytest.raises(InputError, match=r"^origin: expected a text, got 3$"):
-            write(POLAR, "body", origin=3)
+            write(POLAR, "body", origin=3)  # pyright: ignore[reportArgumentType]
 
 
 def test_python_is_the_same_lines_on_arrays():
