@@ -45,14 +45,16 @@ def reweighted(
     count: int,
     need: int,
     floor: float,
+    first: Weighted[Value] | None = None,
 ) -> Reweighted[Value]:
     """Solution of solve(weights (N,)) after nearly least absolute deviations (weights
     min(1, median / residual)) and then the rows within `GROSS` medians, evenly.
 
-    need: number of rows that are kept at least; floor: a residual that is rounding.
+    need: number of rows that are kept at least; floor: a residual that is rounding; first: the
+    solution that says the first weights, of all rows where it is left out.
     Source of the weights: Huber 1964, with the median of the residuals as his constant.
     """
-    found = solve(np.ones(count))
+    found = first or solve(np.ones(count))
     for _ in range(ROUNDS):
         scale = max(found.median, floor)
         found = solve(scale / np.maximum(found.residuals, scale))

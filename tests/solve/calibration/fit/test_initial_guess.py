@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import poekin as pk
@@ -215,6 +215,8 @@ def test_exact_distances_give_their_centre_to_rounding(c, seed, count):
     )
 
 
+# nearly least absolute deviations alone keep two of the wild ones
+@example(c=np.array([-1.87083403, 0.40809502, 1.46393461]), seed=3537, count=24)
 @given(c=group_strategies.vectors((1e-3, 3.0)), seed=seeds, count=st.integers(24, 40))
 def test_two_fifths_of_wild_distances_leaves_the_centre_exact(c, seed, count):
     rng = np.random.default_rng(seed)
