@@ -216,7 +216,8 @@ def _enough(blocks: Array, n: int) -> None:
     not.
     """
     size = blocks.shape[2]
-    start = greedy(blocks, min(len(blocks), max(n, size)))
+    most = min(len(blocks), max(n, size))
+    start = greedy(blocks, most)
 
     def shows(count: int) -> bool:
         J = blocks[start[:count]].reshape(-1, size)
@@ -234,12 +235,14 @@ def _enough(blocks: Array, n: int) -> None:
 
 def design_metrics(blocks: Array, rows: np.ndarray) -> DesignMetrics:
     """The metrics of the candidates `rows`."""
-    J = blocks[rows].reshape(-1, blocks.shape[2])
+    size = blocks.shape[2]
+    J = blocks[rows].reshape(-1, size)
     _, s, Vt = np.linalg.svd(qr_r(J), full_matrices=False)
-    if len(s) < J.shape[1] or s[-1] <= RANK * s[0]:
+    if len(s) < size or s[-1] <= RANK * s[0]:
         return DesignMetrics(*observability.UNOBSERVED, np.inf)
     indices = observability.from_singular_values(s, len(rows))
     # the errors at the candidates are B_k dp, and the covariance of dp is (J^T J)^-1 = V s^-2 V^T
     spread = blocks @ (Vt.T / s)
-    prediction = np.sqrt(np.mean(np.sum(spread**2, axis=2)))
+    variances = np.sum(spread**2, axis=2)
+    prediction = np.sqrt(np.mean(variances))
     return DesignMetrics(*indices, float(prediction))

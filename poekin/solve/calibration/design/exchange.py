@@ -42,13 +42,15 @@ def greedy(
     """n rows of blocks (K, r, L), each the one that adds most to log det N; tick() after each."""
     count, rows, size = blocks.shape
     # On axes in which all candidates together show every direction alike: what is best is the same.
-    blocks = blocks @ np.linalg.inv(qr_r(blocks.reshape(-1, size)))
+    R = qr_r(blocks.reshape(-1, size))
+    blocks = blocks @ np.linalg.inv(R)
     N = np.eye(size) * (REGULARISATION / count)
     chosen: list[int] = []
     for _ in range(n):
         # det(N + B^T B) = det N det(1 + B N^-1 B^T)
         products = blocks @ np.linalg.inv(N) @ blocks.transpose(0, 2, 1)
-        gains = np.linalg.slogdet(np.eye(rows) + products)[1]
+        factors = np.eye(rows) + products
+        _, gains = np.linalg.slogdet(factors)
         gains[chosen] = -np.inf
         best = int(gains.argmax())
         chosen.append(best)
@@ -133,16 +135,24 @@ class DesignState(NamedTuple):
 
 def design_state(search: Search, chosen: np.ndarray) -> DesignState:
     """State of the rows `chosen` of the candidates."""
-    J = search.blocks[chosen].reshape(-1, search.blocks.shape[2])
+    size = search.blocks.shape[2]
+    J = search.blocks[chosen].reshape(-1, size)
     N = J.T @ J
     worth = float(value(N, search.criterion, search.mean))
     if search.criterion in ("O1", "prediction"):
-        return DesignState(N, worth, np.linalg.inv(N))
+        inverse = np.linalg.inv(N)
+        return DesignState(N, worth, inverse)
     eigenvalues, V = np.linalg.eigh(N)
     some = np.arange(len(N))
     if len(N) > LOWEST + HIGHEST:
-        some = np.concatenate([some[:LOWEST], some[-HIGHEST:]])
-    return DesignState(N, worth, eigenvalues=eigenvalues[some], vectors=V[:, some])
+        lowest = some[:LOWEST]
+        some = np.concatenate([lowest, some[-HIGHEST:]])
+    return DesignState(
+        N,
+        worth,
+        eigenvalues=eigenvalues[some],
+        vectors=V[:, some],
+    )
 
 
 def best_exchange(
@@ -182,18 +192,29 @@ def value(N: Array, criterion: Criterion, mean: Array) -> Array:
     """
     if criterion == "prediction":
         # NumPy 1 takes one matrix beside many for a stack of vectors.
-        spread = np.linalg.solve(N, np.broadcast_to(mean, N.shape))
-        return -_log(np.trace(spread, axis1=-2, axis2=-1), np.inf)
+        means = np.broadcast_to(mean, N.shape)
+        spread = np.linalg.solve(N, means)
+        return -_log(_trace(spread), np.inf)
     eigenvalues = np.linalg.eigvalsh(N)
-    rounding = np.finfo(float).eps * eigenvalues[..., -1:]
-    floor = np.maximum(rounding, np.finfo(float).tiny)
+    double = np.finfo(float)
+    rounding = double.eps * eigenvalues[..., -1:]
+    floor = np.maximum(rounding, double.tiny)
     logs = np.log(np.maximum(eigenvalues, floor))
     if criterion == "O1":
         return logs.sum(-1)
     return _of_extremes(logs[..., 0], logs[..., -1], criterion)
 
 
-def _of_extremes(low: np.ndarray, high: np.ndarray, criterion: Criterion) -> Array:
+def _trace(M: np.ndarray) -> Array:
+    """Traces (...) of matrices (..., k, k)."""
+    return np.trace(M, axis1=-2, axis2=-1)
+
+
+def _of_extremes(
+    low: np.ndarray,
+    high: np.ndarray,
+    criterion: Criterion,
+) -> Array:
     """The logarithm of the square of an index, of those of the extreme eigenvalues."""
     if criterion == "smallest":
         return low
@@ -205,7 +226,8 @@ def _of_extremes(low: np.ndarray, high: np.ndarray, criterion: Criterion) -> Arr
 def _log(x: np.ndarray, otherwise: float) -> Array:
     """log x where x is positive."""
     good = x > 0
-    return np.where(good, np.log(np.where(good, x, 1.0)), otherwise)
+    logs = np.log(np.where(good, x, 1.0))
+    return np.where(good, logs, otherwise)
 
 
 def upper_bound(search: Search, state: DesignState, out: Array) -> Array:
@@ -223,19 +245,29 @@ def _bound_by_ritz_values(search: Search, state: DesignState, out: Array) -> Arr
     """
     into = search.blocks @ state.vectors
     gone = out @ state.vectors
-    diagonal = state.eigenvalues - (gone**2).sum(0) + (into**2).sum(1)
+    remaining = state.eigenvalues - (gone**2).sum(0)
+    diagonal = remaining + (into**2).sum(1)
     ahead = _between(diagonal.min(1), diagonal.max(1), search.criterion)
     left = np.flatnonzero(ahead > state.value)  # for the others one vector each says enough
     some = into[left]
     left_over = np.diag(state.eigenvalues) - gone.T @ gone
-    ritz = np.linalg.eigvalsh(left_over + some.transpose(0, 2, 1) @ some)
+    projected = left_over + some.transpose(0, 2, 1) @ some
+    ritz = np.linalg.eigvalsh(projected)
     ahead[left] = _between(ritz[:, 0], ritz[:, -1], search.criterion)
     return ahead
 
 
-def _between(low: np.ndarray, high: np.ndarray, criterion: Criterion) -> Array:
+def _between(
+    low: np.ndarray,
+    high: np.ndarray,
+    criterion: Criterion,
+) -> Array:
     """Bound (K,) of the criterion where all eigenvalues span from low to high at least."""
-    return _of_extremes(_log(low, -np.inf), _log(high, np.inf), criterion)
+    return _of_extremes(
+        _log(low, -np.inf),
+        _log(high, np.inf),
+        criterion,
+    )
 
 
 def _exact_update(search: Search, state: DesignState, out: Array) -> Array:
@@ -245,7 +277,8 @@ def _exact_update(search: Search, state: DesignState, out: Array) -> Array:
     """
     blocks = search.blocks
     signs = np.repeat([1.0, -1.0], len(out))
-    W = np.concatenate([blocks, np.broadcast_to(out, blocks.shape)], axis=1)
+    outs = np.broadcast_to(out, blocks.shape)
+    W = np.concatenate([blocks, outs], axis=1)
     C = np.diag(signs) + W @ state.inverse @ W.transpose(0, 2, 1)
     sign, log = np.linalg.slogdet(C)
     regular = sign * signs.prod() > 0
@@ -254,6 +287,6 @@ def _exact_update(search: Search, state: DesignState, out: Array) -> Array:
     C[~regular] = np.eye(len(signs))
     weighted = state.inverse @ search.mean
     spread = W @ (weighted @ state.inverse) @ W.transpose(0, 2, 1)
-    less = np.trace(np.linalg.solve(C, spread), axis1=-2, axis2=-1)
+    less = _trace(np.linalg.solve(C, spread))
     left = np.trace(weighted) - less
     return np.where(regular, -_log(left, np.inf), -np.inf)

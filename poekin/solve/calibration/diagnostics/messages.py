@@ -32,8 +32,10 @@ def directions(
     # difference
     left = np.ones(len(N))
     if unidentifiable is not None:
-        left = np.maximum(1.0 - np.sum(unidentifiable * unidentifiable, axis=1), _PART)
-    alone = np.flatnonzero(np.sum(N * N, axis=1) > _WHOLE * left)
+        lost = np.sum(unidentifiable * unidentifiable, axis=1)
+        left = np.maximum(1.0 - lost, _PART)
+    parts = np.sum(N * N, axis=1)
+    alone = np.flatnonzero(parts > _WHOLE * left)
     words = _alone(problem, alone)
     _, s, Vt = np.linalg.svd(N[alone])
     rest = N @ Vt[np.sum(s > _PART) :].T
@@ -44,7 +46,8 @@ def directions(
 
 def _combined(problem: Problem, rest: Array) -> str:
     """Words for directions (P, k) each of which moves several parameters."""
-    involved = np.flatnonzero(np.sum(rest * rest, axis=1) > _PART)
+    parts = np.sum(rest * rest, axis=1)
+    involved = np.flatnonzero(parts > _PART)
     owners = list(dict.fromkeys(problem.parameters[j].owner for j in involved))
     count = rest.shape[1]
     if len(owners) == 1:
@@ -54,7 +57,8 @@ def _combined(problem: Problem, rest: Array) -> str:
         return f"{combinations} of the parameters of {_list(owners)}"
     joints = {p.owner for p in problem.model.parameters} - {"home"}
     if len(joints) > 2 and joints <= set(owners):
-        owners = ["the arm as a whole", *(o for o in owners if o not in joints and o != "home")]
+        others = [o for o in owners if o not in joints and o != "home"]
+        owners = ["the arm as a whole", *others]
     changes = "a combined change"
     cancel = "that cancels out"
     if count > 1:
@@ -72,7 +76,8 @@ def unobserved(problem: Problem, N: Array, unidentifiable: Array) -> list[str]:
     did not change in them.
     """
     words = directions(problem, N, unidentifiable)
-    used = problem.q[np.unique(np.concatenate(problem.rows))]
+    rows = np.unique(np.concatenate(problem.rows))
+    used = problem.q[rows]
     pairs = zip(problem.model.nominal.q_names, used.T, strict=True)
     still = [name for name, column in pairs if np.ptp(column) <= _STILL]
     if words and still:

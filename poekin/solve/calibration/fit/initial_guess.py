@@ -56,7 +56,12 @@ def hand_eye(A: Array, B: Array) -> tuple[Array, Array]:
     _check_count(count, 3, "two unknown frames")
     R_A = A[:, :3, :3]
     R_B = B[:, :3, :3]
-    turned = reweighted(lambda w: _rotations(R_A, R_B, w), count, 3, _ROUNDING)
+    turned = reweighted(
+        lambda w: _rotations(R_A, R_B, w),
+        count,
+        3,
+        _ROUNDING,
+    )
     R_X, R_Z = turned.value
     _check_turns(R_A[turned.kept], turned.median)
     # unknowns t_Z, t_X; a design of rotations alone: no row has more leverage than another
@@ -91,8 +96,16 @@ def registration(a: Array, b: Array) -> Array:
     weights.
     """
     _check_count(len(a), 3, "the frame of points")
-    floor = _rounding(np.abs(a).max(), np.abs(b).max())
-    found = reweighted(lambda w: _rigid(a, b, w), len(a), 3, floor)
+    floor = _rounding(
+        np.abs(a).max(),
+        np.abs(b).max(),
+    )
+    found = reweighted(
+        lambda w: _rigid(a, b, w),
+        len(a),
+        3,
+        floor,
+    )
     for points in (b[found.kept], a[found.kept]):
         sizes = extents(points - points.mean(axis=0))
         if is_flat(sizes, 1, found.median):
@@ -121,12 +134,29 @@ def centre(p: Array, d: Array) -> Array:
     """
     count = len(p)
     _check_count(count, 4, "the centre of distances")
-    spread = np.abs(p - p.mean(axis=0)).max()
+    from_mean = p - p.mean(axis=0)
+    spread = np.abs(from_mean).max()
     floor = _rounding(spread, np.median(d))
-    linear = reweighted(lambda w: _multilateral(p, d, w), count, 4, floor)
-    nearer = reweighted(lambda w: _nearer(p, d, w, linear.value), count, 4, floor)
+    linear = reweighted(
+        lambda w: _multilateral(p, d, w),
+        count,
+        4,
+        floor,
+    )
+    nearer = reweighted(
+        lambda w: _nearer(p, d, w, linear.value),
+        count,
+        4,
+        floor,
+    )
     best = _of_fours(p, d)
-    other = reweighted(lambda w: _nearer(p, d, w, best.value), count, 4, floor, best)
+    other = reweighted(
+        lambda w: _nearer(p, d, w, best.value),
+        count,
+        4,
+        floor,
+        best,
+    )
     found = min(linear, nearer, other, key=lambda guess: guess.median)
     kept = p[found.kept]
     sizes = extents(kept - kept.mean(axis=0))
@@ -148,9 +178,20 @@ def mean_pose(T: Array) -> Array:
     """
     R = T[:, :3, :3]
     t = T[:, :3, 3]
-    turned = reweighted(lambda w: _mean_rotation(R, w), len(T), 1, _ROUNDING)
+    count = len(T)
+    turned = reweighted(
+        lambda w: _mean_rotation(R, w),
+        count,
+        1,
+        _ROUNDING,
+    )
     floor = _rounding(np.abs(t).max())
-    placed = reweighted(lambda w: _mean_place(t, w), len(T), 1, floor)
+    placed = reweighted(
+        lambda w: _mean_place(t, w),
+        count,
+        1,
+        floor,
+    )
     return se3.pose(turned.value, placed.value)
 
 
@@ -179,23 +220,31 @@ def _rotations(R_A: Array, R_B: Array, w: Array) -> Weighted[_Turns]:
     sign = np.copysign(1.0, np.linalg.det(X))  # the singular vectors are those of both signs
     R_X = _rotation(sign * X)
     R_Z = _rotation(sign * V[0].reshape(3, 3))
-    return Weighted(_Turns(R_X, R_Z), _chord(R_A @ R_Z - R_X @ R_B))
+    misses = R_A @ R_Z - R_X @ R_B
+    return Weighted(_Turns(R_X, R_Z), _chord(misses))
 
 
 def _chord(difference: Array) -> Array:
     """2 sin(angle/2) between two rotations, of their difference (N, 3, 3)."""
-    return np.sqrt(0.5 * np.square(difference).sum(axis=(1, 2)))
+    squared = np.square(difference).sum(axis=(1, 2))
+    return np.sqrt(0.5 * squared)
 
 
 def _rotation(M: Array) -> Array:
     """The rotation nearest to M: U diag(1, 1, det U det V) V^T of its singular value decomposition."""
     U, _, V = np.linalg.svd(M)
-    reflects = np.copysign(1.0, np.linalg.det(U) * np.linalg.det(V))
-    return (U * [1.0, 1.0, reflects]) @ V
+    det = np.linalg.det(U) * np.linalg.det(V)
+    signs = [
+        1.0,
+        1.0,
+        np.copysign(1.0, det),
+    ]
+    return (U * signs) @ V
 
 
 def _check_turns(R: Array, scatter: float) -> None:
-    first, second, _ = extents(so3.log(R[0].T @ R)).tolist()
+    turns_from_first = so3.log(R[0].T @ R)
+    first, second, _ = extents(turns_from_first).tolist()
     if scatter > MISFIT and second > MISFIT:
         raise InputError(
             f"no two frames fit: they leave {scatter:.2g} rad between the measured rotations and "
@@ -224,7 +273,8 @@ def _linear(design: Array, rhs: Array, w: Array) -> Weighted[Array]:
         rows.reshape(-1, design.shape[2]),
         (root * rhs).ravel(),
     )
-    return Weighted(x, _lengths(design @ x - rhs))
+    misses = design @ x - rhs
+    return Weighted(x, _lengths(misses))
 
 
 def _rigid(a: Array, b: Array, w: Array) -> Weighted[Array]:
@@ -234,7 +284,8 @@ def _rigid(a: Array, b: Array, w: Array) -> Weighted[Array]:
     weighted = w[:, None] * (b - mean_b)
     R = _rotation((a - mean_a).T @ weighted)
     t = mean_a - R @ mean_b
-    return Weighted(se3.pose(R, t), _lengths(b @ R.T + t - a))
+    misses = b @ R.T + t - a
+    return Weighted(se3.pose(R, t), _lengths(misses))
 
 
 def _multilateral(p: Array, d: Array, w: Array) -> Weighted[Array]:
@@ -243,25 +294,31 @@ def _multilateral(p: Array, d: Array, w: Array) -> Weighted[Array]:
     squares = x * x
     # a point that the centre may stand on has d = 0: its row is divided by what is usual
     usual = 0.1 * np.median(d)
-    row = np.sqrt(w) / (2 * np.maximum(d, usual + _TINY))
+    divisor = 2 * np.maximum(d, usual + _TINY)
+    row = np.sqrt(w) / divisor
     # brings the fourth column to the size of the others
     length = np.sqrt(np.mean(squares)) + _TINY
-    design = np.column_stack([2 * x, np.full(len(x), -length)])
+    constant = np.full(len(x), -length)
+    design = np.column_stack([2 * x, constant])
     rhs = squares.sum(axis=1) - d * d
-    c = least_squares(design * row[:, None], rhs * row)[:3]
-    return Weighted(c + mean, np.abs(_lengths(x - c) - d))
+    solution = least_squares(design * row[:, None], rhs * row)
+    c = solution[:3]
+    misses = _lengths(x - c) - d
+    return Weighted(c + mean, np.abs(misses))
 
 
 def _of_fours(p: Array, d: Array) -> Weighted[Array]:
     """The centre out of four distances that leaves the least median residual, of `FOURS` draws:
     with two fifths of outliers all draws have one once in a million times.
     """
+    count = len(p)
     rng = np.random.default_rng(0)
     found = []
     for _ in range(FOURS):
-        chosen = np.zeros(len(p))
-        chosen[rng.choice(len(p), 4, replace=False)] = 1.0
-        found.append(_multilateral(p, d, chosen))
+        weights = np.zeros(count)
+        four = rng.choice(count, 4, replace=False)
+        weights[four] = 1.0
+        found.append(_multilateral(p, d, weights))
     return min(found, key=lambda guess: guess.median)
 
 
@@ -278,9 +335,12 @@ def _nearer(
     for _ in range(STEPS):
         away = c - p
         length = _lengths(away)
-        u = away / np.maximum(length, _TINY)[:, None]
-        c = c - least_squares(u * root[:, None], (length - d) * root)
-    return Weighted(c, np.abs(_lengths(p - c) - d))
+        divisor = np.maximum(length, _TINY)
+        u = away / divisor[:, None]
+        rows = u * root[:, None]
+        c = c - least_squares(rows, (length - d) * root)
+    misses = _lengths(p - c) - d
+    return Weighted(c, np.abs(misses))
 
 
 def _lengths(vectors: Array) -> Array:

@@ -119,7 +119,8 @@ def minimise(
                 return Outcome(p, done, steps, jacobian)
             damping = max(_FIRST_DAMPING, 10.0 * damping)
             trial = _trial(objective, p, linear, damping)
-        steps.append(Step(cost, float(np.linalg.norm(trial.z)), damping))
+        length = float(np.linalg.norm(trial.z))
+        steps.append(Step(cost, length, damping))
         p = trial.p
         cost = trial.cost
         if damping > _FIRST_DAMPING:
@@ -137,7 +138,8 @@ def _triangular(objective: _Objective, p: Array, rows: Array) -> _Linear:
     inverse = objective.inverse_prior[known]
     B = inverse[:, None] * objective.B[known]
     of_prior = np.column_stack([B, inverse * p[known]])
-    R = qr_r(np.concatenate([rows, of_prior]))[: B.shape[1]]
+    triangle = qr_r(np.concatenate([rows, of_prior]))
+    R = triangle[: B.shape[1]]
     return _Linear(R[:, :-1], R[:, -1])
 
 
@@ -149,7 +151,12 @@ def _is_last(linear: _Linear, cost: float) -> bool:
     return bool(gain <= _ENOUGH * cost or np.linalg.norm(z) <= _ROUNDING)
 
 
-def _trial(objective: _Objective, p: Array, linear: _Linear, damping: float) -> _Trial:
+def _trial(
+    objective: _Objective,
+    p: Array,
+    linear: _Linear,
+    damping: float,
+) -> _Trial:
     z = _solution(linear, damping)
     new = p + objective.B @ z
     cost = np.inf
@@ -163,9 +170,11 @@ def _solution(linear: _Linear, damping: float) -> Array:
     R, c = linear
     if damping > 0.0:
         norms = np.linalg.norm(R, axis=0)
-        weights = np.sqrt(damping) * np.maximum(norms, np.finfo(float).tiny)
+        scales = np.maximum(norms, np.finfo(float).tiny)
+        weights = np.sqrt(damping) * scales
+        zeros = np.zeros(len(norms))
         R = np.concatenate([R, np.diag(weights)])
-        c = np.concatenate([c, np.zeros(len(norms))])
+        c = np.concatenate([c, zeros])
     elif regular(R):
         return np.asarray(np.linalg.solve(R, -c), float)
     return least_squares(R, -c)
@@ -217,7 +226,8 @@ def _rows(objective: _Objective, p: Array) -> tuple[Array, Array]:
         e = objective.noise.whitened(k, errors[..., None])[..., 0]
         width = e.shape[1]
         whitened = objective.noise.whitened(k, jacobian)
-        D = blocked_product(whitened.reshape(-1, jacobian.shape[2]), objective.B)
+        stacked = whitened.reshape(-1, jacobian.shape[2])
+        D = blocked_product(stacked, objective.B)
         squares = np.sum(e * e, axis=1)
         weight = loss(objective.loss, squares, width).weight
         root = np.repeat(np.sqrt(weight), width)

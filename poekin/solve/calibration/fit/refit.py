@@ -19,7 +19,12 @@ from .minimise import FitOptions, minimise, misfit
 _TRIED = 3  # steps: from so near they gain nearly all that there is to gain
 
 
-def fit_with_refit(problem: Problem, free: Array, p: Array, options: FitOptions) -> Fit:
+def fit_with_refit(
+    problem: Problem,
+    free: Array,
+    p: Array,
+    options: FitOptions,
+) -> Fit:
     """`fit_parameters`, and again with the directions identified only where it ended, if the data
     fit better by more than chance explains.
 

@@ -28,19 +28,23 @@ def _velocities(D: Array, y: Array) -> Array:
 
 def points_at(T: Array, points: Array) -> Array:
     """Points (N, k, 3) in the base frame, of points (k, 3) in the tip frame."""
-    back = np.swapaxes(T[:, :3, :3], 1, 2)
+    R = T[:, :3, :3]
+    back = np.swapaxes(R, 1, 2)
     return points @ back + T[:, None, :3, 3]
 
 
 def point_at(T: Array, point: Array) -> Array:
     """Point (N, 3) in the base frame, of a point (3,) in the tip frame."""
-    return T[:, :3, :3] @ point + T[:, :3, 3]
+    R = T[:, :3, :3]
+    t = T[:, :3, 3]
+    return R @ point + t
 
 
 def parse_points(points: ArrayLike) -> Array:
     """Points of the tool (k, 3) in the tip frame, of one (3,) or several. Raises: ShapeError."""
     body = np.atleast_2d(numbers(points, "points"))
-    if body.ndim != 2 or body.shape[1] != 3 or not len(body) or not np.isfinite(body).all():
+    rows_of_three = body.ndim == 2 and body.shape[1] == 3
+    if not rows_of_three or not len(body) or not np.isfinite(body).all():
         raise ShapeError(
             f"points: expected finite (3,) or (k, 3) in the tip frame, got {safe_repr(points)}"
         )
@@ -145,7 +149,8 @@ class Points(Measurement):
 
     def _moved(self, T: Array, D: Array) -> Array:
         """Velocities (N, 3k, P) of the points under the space twists D (N, 6, P)."""
-        moved = _velocities(D[:, None], points_at(T, self.points))
+        y = points_at(T, self.points)
+        moved = _velocities(D[:, None], y)
         return moved.reshape(len(T), self.width, D.shape[2])
 
     def guesses(self, T: Array) -> list[Array]:
@@ -153,7 +158,8 @@ class Points(Measurement):
         if not self.unknown_frames:
             return []
         nominal = points_at(T, self.points).reshape(-1, 3)
-        return [initial_guess.registration(nominal, self.p.reshape(-1, 3))]
+        measured = self.p.reshape(-1, 3)
+        return [initial_guess.registration(nominal, measured)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,8 +228,10 @@ class Distances(Measurement):
 
     def errors(self, T: Array, frame_values: Frames) -> Array:
         """Errors d_model − d_measured (N, 1)."""
-        away = self._away(point_at(T, self.point), frame_values)
-        return (np.linalg.norm(away, axis=1) - self.d)[:, None]
+        y = point_at(T, self.point)
+        away = self._away(y, frame_values)
+        errors = np.linalg.norm(away, axis=1) - self.d
+        return errors[:, None]
 
     def jacobian(
         self,
@@ -236,7 +244,8 @@ class Distances(Measurement):
         y = point_at(T, self.point)
         away = self._away(y, frame_values)
         size = np.linalg.norm(away, axis=1, keepdims=True)
-        u = (away / np.maximum(size, np.finfo(float).tiny))[:, None]
+        divisor = np.maximum(size, np.finfo(float).tiny)
+        u = (away / divisor)[:, None]
         return u @ _velocities(D, y), [-u for _ in frame_values]
 
     def guesses(self, T: Array) -> list[Array]:

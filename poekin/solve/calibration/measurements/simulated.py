@@ -72,7 +72,10 @@ class Simulated(Result):
         return self._frame("T_tip")
 
     def _frame(self, beginning: str) -> Array | None:
-        return next((T for name, T in self.frames.items() if name.startswith(beginning)), None)
+        for name, T in self.frames.items():
+            if name.startswith(beginning):
+                return T
+        return None
 
     def summary(self) -> str:
         """Number and kind of the measurements, and number of gross outliers, as text."""
@@ -170,12 +173,15 @@ def simulated(  # noqa: PLR0913 - options by keyword
     )
     model = ErrorModel(chain, ("screws", "home"), None)
     sizes = {"rad": tilt, "m": shift}
-    p = np.array([sizes[parameter.unit] for parameter in model.parameters], float)
+    of_parameters = [sizes[parameter.unit] for parameter in model.parameters]
+    p = np.array(of_parameters, float)
     p *= for_arm.normal(size=len(p))
     truth = model.chain(p)
     q = _readings(chain, q, int(n), for_arm)
     gross = np.zeros(n, bool)
-    gross[for_outliers.permutation(n)[: round(outliers * n)]] = True
+    n_gross = round(outliers * n)
+    shuffled = for_outliers.permutation(n)
+    gross[shuffled[:n_gross]] = True
     sensor = _Sensor(chain.reach, deviations, for_errors, for_outliers, gross)
     frames = _random_frames(for_frames, chain.reach)
     made = _measure(kind, truth.fk(q), frames, body, unknown, sensor)
@@ -220,25 +226,30 @@ def _measure(
     """Measurements of this kind at the true poses T (N, 4, 4)."""
     X, Z, centre = frames
     if kind == "poses":
-        return _Made(Poses(sensor.poses(T), sensor.covariance(3, 3)), {})
+        measured = Poses(sensor.poses(T), sensor.covariance(3, 3))
+        return _Made(measured, {})
     if kind in _HAND_EYE:
         seen = sensor.poses(se3.inverse(X) @ T @ Z)
         measured = _HAND_EYE[kind](seen, sensor.covariance(3, 3))
-        return _Made(measured, dict(zip(measured.frames, (X, Z), strict=True)))
+        hidden = dict(zip(measured.frames, (X, Z), strict=True))
+        return _Made(measured, hidden)
     if kind == "distances":
         points = points[:1]
         d = sensor.distances(T, points[0], centre)
         covariance = sensor.covariance(0, 1)
         if unknown:
-            hidden = {"centre": centre}
-            return _Made(Distances(d, None, points[0], covariance), hidden, points)
-        return _Made(Distances(d, centre, points[0], covariance), {}, points)
+            measured = Distances(d, None, points[0], covariance)
+            return _Made(measured, {"centre": centre}, points)
+        measured = Distances(d, centre, points[0], covariance)
+        return _Made(measured, {}, points)
     covariance = sensor.covariance(0, points.size)
     if unknown:
         p = sensor.points(se3.inverse(X) @ T, points)
         measured = Points(p, points, covariance, frame="unknown")
         return _Made(measured, {"T_base_device": X}, points)
-    return _Made(Points(sensor.points(T, points), points, covariance), {}, points)
+    p = sensor.points(T, points)
+    measured = Points(p, points, covariance)
+    return _Made(measured, {}, points)
 
 
 def _readings(
@@ -267,36 +278,51 @@ class _Sensor:
 
     def poses(self, T: Array) -> Array:
         """Measured poses (N, 4, 4)."""
-        w, e = (sigma * self.rng.normal(size=(len(T), 3)) for sigma in self.noise)
+        shape = (len(T), 3)
+        w, e = (self._drawn(sigma, shape) for sigma in self.noise)
         w[self.gross] += self._gross_vectors(GROSS_TURN)
         e[self.gross] += self._gross_vectors(GROSS_SHIFT, self.reach)
         T = T.copy()
-        T[:, :3, :3] = so3.exp(w) @ T[:, :3, :3]
+        R = T[:, :3, :3]
+        T[:, :3, :3] = so3.exp(w) @ R
         T[:, :3, 3] += e
         return T
 
     def points(self, T: Array, points: Array) -> Array:
         """Measured positions (N, k, 3) of points of the tool."""
         p = points_at(T, points)
-        p += self.noise[1] * self.rng.normal(size=p.shape)
-        p[self.gross] += self._gross_vectors(GROSS_SHIFT, self.reach)[:, None]
+        p += self._drawn(self.noise[1], p.shape)
+        shifts = self._gross_vectors(GROSS_SHIFT, self.reach)
+        p[self.gross] += shifts[:, None]
         return p
 
-    def distances(self, T: Array, point: Array, centre: Array) -> Array:
+    def distances(
+        self,
+        T: Array,
+        point: Array,
+        centre: Array,
+    ) -> Array:
         """Measured distances (N,) of a point of the tool from the centre."""
-        d = np.linalg.norm(point_at(T, point) - centre, axis=1)
-        d += self.noise[1] * self.rng.normal(size=d.shape)
-        signs = self.outlier_rng.choice([-1.0, 1.0], len(d))
-        off = signs * self.reach * self.outlier_rng.uniform(*GROSS_SHIFT, len(d))
+        away = point_at(T, point) - centre
+        d = np.linalg.norm(away, axis=1)
+        d += self._drawn(self.noise[1], d.shape)
+        count = len(d)
+        signs = self.outlier_rng.choice([-1.0, 1.0], count)
+        sizes = self.outlier_rng.uniform(*GROSS_SHIFT, count)
+        off = signs * self.reach * sizes
         wrong = np.where(d + off > 0, d + off, d - off)
         return np.where(self.gross, wrong, d)
 
     def covariance(self, angles: int, lengths: int) -> Array | None:
         """Covariance of one measurement's errors, the angles first; None without noise."""
-        diagonal = np.repeat(np.square(self.noise), [angles, lengths])
+        variances = np.square(self.noise)
+        diagonal = np.repeat(variances, [angles, lengths])
         if diagonal.all():
             return np.diag(diagonal)
         return None
+
+    def _drawn(self, sigma: float, shape: tuple[int, ...]) -> Array:
+        return sigma * self.rng.normal(size=shape)
 
     def _gross_vectors(
         self,
@@ -318,12 +344,18 @@ def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
     """X anywhere about the base; Z near the tip, by a tenth of the reach; a centre that the arm
     does not come to.
     """
-    turns = rng.uniform(0.5, 2.5, (2, 1)) * _directions(rng, 2)
+    angles = rng.uniform(0.5, 2.5, (2, 1))
+    turns = angles * _directions(rng, 2)
     directions = _directions(rng, 3)
     X, Z = (se3.exp([*turn, 0.0, 0.0, 0.0]) for turn in turns)
     X[:3, 3] = 0.7 * reach * directions[0]
     Z[:3, 3] = 0.1 * reach * directions[1]
-    return _Frames(read_only(X), read_only(Z), read_only(2.0 * reach * directions[2]))
+    centre = 2.0 * reach * directions[2]
+    return _Frames(
+        read_only(X),
+        read_only(Z),
+        read_only(centre),
+    )
 
 
 def _deviations(
@@ -338,7 +370,12 @@ def _deviations(
             f"noise: expected two standard deviations, (rad, m), got {safe_repr(noise)}"
         )
     turn, place = sizes.tolist()
-    named = {"tilt": tilt, "shift": shift, "noise[0]": turn, "noise[1]": place}
+    named = {
+        "tilt": tilt,
+        "shift": shift,
+        "noise[0]": turn,
+        "noise[1]": place,
+    }
     for name, value in named.items():
         if numbers(value, name).shape != () or not 0 <= value < np.inf:
             raise InputError(

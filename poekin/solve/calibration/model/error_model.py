@@ -63,10 +63,12 @@ class ErrorModel:
         chosen = parse_joints(nominal, joints)
         self.nominal = nominal
         self.kinds = kinds
-        self.moving = tuple(np.array(nominal.joint_names, object)[chosen])
+        joint_names = np.array(nominal.joint_names, object)
+        self.moving = tuple(joint_names[chosen])
         self._free = free_parameters(nominal, kinds, chosen)
         # pose of each joint's z-aligned frame in the base at home
-        poses = list(accumulate(nominal.local.frames[:-1], np.matmul))
+        local = nominal.local.frames[:-1]
+        poses = list(accumulate(local, np.matmul))
         frames = np.reshape(poses, (-1, 4, 4))
         # (n, 6, 4): columns tilt, tilt, shift, shift
         self._across = se3.adjoint(frames)[..., [0, 1, 3, 4]]
@@ -122,7 +124,8 @@ class ErrorModel:
         """
         moved = self.joints(p)
         errors = self.errors(p)
-        if self._plain and not errors.offsets.any() and not errors.gains.any():
+        exact = not errors.offsets.any() and not errors.gains.any()
+        if self._plain and exact:
             return moved
         arm = self.nominal.replace(
             screws=moved.screws,
@@ -136,10 +139,12 @@ class ErrorModel:
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""
-        return self._last_poses(
-            _key(p, q),
-            lambda: read_only(self.joints(p).fk(self.values(p, q))),
-        )
+
+        def poses() -> Array:
+            moved = self.joints(p)
+            return read_only(moved.fk(self.values(p, q)))
+
+        return self._last_poses(_key(p, q), poses)
 
     def poses_and_twists(self, p: Array, q: Array) -> PosesAndTwists:
         """Poses at the readings q (N, m), and how the parameters move them.
@@ -147,10 +152,13 @@ class ErrorModel:
         At p the motion of joint i is e^eta_i with d(e^eta) e^-eta = J_l(eta) d eta, and the home
         pose's M e^eta with J_r(eta); a pitch slides along the joint's moved axis.
         """
-        return self._last_twists(
-            _key(p, q),
-            lambda: PosesAndTwists(self.poses(p, q), read_only(self._twists(p, q))),
-        )
+
+        def poses_and_twists() -> PosesAndTwists:
+            T = self.poses(p, q)
+            D = self._twists(p, q)
+            return PosesAndTwists(T, read_only(D))
+
+        return self._last_twists(_key(p, q), poses_and_twists)
 
     def _twists(self, p: Array, q: Array) -> Array:
         """Space twists (N, 6, P) per unit of each parameter."""
@@ -161,17 +169,24 @@ class ErrorModel:
         derivatives = joints.screw_derivatives(x)
         parts = [self._screw_twists(errors.screws, derivatives.screws)]
         readings = []
-        if any(part.any() for part in (free.pitches, free.offsets, free.gains)):
+        of_joints = (
+            free.pitches,
+            free.offsets,
+            free.gains,
+        )
+        if any(part.any() for part in of_joints):
             J = joints.jacobian(x, frame="space")
             slides = np.zeros_like(J)
-            slides[:, 3:] = J[:, :3] * x[:, None]
+            directions = J[:, :3]
+            slides[:, 3:] = directions * x[:, None]
             parts.append(slides[..., free.pitches])
             if self._coupling is not None:
                 J = J @ self._coupling
             gains = J[..., free.gains] * q[:, None, free.gains]
             readings = [J[..., free.offsets], gains]
         if free.home.any():
-            parts.append(derivatives.home @ se3.right_jacobian(errors.home))
+            J_r = se3.right_jacobian(errors.home)
+            parts.append(derivatives.home @ J_r)
         return np.concatenate([*parts, *readings], axis=2)
 
     def _screw_twists(self, eta: Array, derivatives: Array) -> Array:

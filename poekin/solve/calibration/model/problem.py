@@ -43,15 +43,19 @@ class Problem:
         self.model = model
         self.q = q
         self.sets = tuple(sets)
-        self.rows = [rows_of(s, len(q)) for s in self.sets]
-        self._own = [_frame_names(k, self.sets) for k in range(len(self.sets))]
+        count = len(q)
+        self.rows = [rows_of(s, count) for s in self.sets]
+        numbers = range(len(self.sets))
+        self._own = [_frame_names(k, self.sets) for k in numbers]
         named = list(model.parameters)
         self._parts: dict[str, slice] = {}
-        for s, own in zip(self.sets, self._own, strict=True):
+        pairs = zip(self.sets, self._own, strict=True)
+        for s, own in pairs:
             for name, frame in zip(own, s.unknown_frames, strict=True):
                 if name not in self._parts:
-                    self._parts[name] = slice(len(named), len(named) + frame.size)
+                    begin = len(named)
                     named += frame_parameters(name, frame.size)
+                    self._parts[name] = slice(begin, len(named))
         self.frame_names = list(self._parts)
         self.parameters = tuple(named)
         lengths = [p.unit in ("m", "m/rad") for p in named]
@@ -65,10 +69,15 @@ class Problem:
         """Initial guesses of the unknown frames: of those that sets share, by the largest set."""
         T = self.model.nominal.fk(self.q)
         found: dict[str, Array] = {}
-        parts = zip(self.sets, self._own, self.rows, strict=True)
-        for s, own, rows in sorted(parts, key=lambda part: -len(part[0])):
-            pairs = zip(own, s.unknown_frames, strict=True)
-            known = [u._replace(guess=found.get(name, u.guess)) for name, u in pairs]
+        largest_first = sorted(
+            zip(self.sets, self._own, self.rows, strict=True),
+            key=lambda part: -len(part[0]),
+        )
+        for s, own, rows in largest_first:
+            known = []
+            for name, unknown in zip(own, s.unknown_frames, strict=True):
+                guess = found.get(name, unknown.guess)
+                known.append(unknown._replace(guess=guess))
             guesses = s.with_unknown_frames(known).guesses(T[rows])
             found |= dict(zip(own, guesses, strict=True))
         return [found[name] for name in self.frame_names]
@@ -90,8 +99,11 @@ class Problem:
 
     def frame_values(self, p: Array) -> dict[str, Array]:
         """The unknown frames (4, 4) and points (3,) at p, by name."""
+        values = {}
         pairs = zip(self.initial_frames, self._parts.items(), strict=True)
-        return {name: _moved(frame, p[part]) for frame, (name, part) in pairs}
+        for frame, (name, part) in pairs:
+            values[name] = _moved(frame, p[part])
+        return values
 
     def residuals(self, p: Array) -> Residuals:
         """Residuals of all measurements."""
@@ -102,23 +114,28 @@ class Problem:
         return self._last_errors(p.tobytes(), lambda: self._errors(p))
 
     def _errors(self, p: Array) -> list[Array]:
-        T = self.model.poses(p[: self.model_size], self.q)
+        of_model = p[: self.model_size]
+        T = self.model.poses(of_model, self.q)
         frames = self.frame_values(p)
         found = []
-        for s, rows, own in zip(self.sets, self.rows, self._own, strict=True):
-            errors = s.errors(T[rows], [frames[name] for name in own])
+        parts = zip(self.sets, self.rows, self._own, strict=True)
+        for s, rows, own in parts:
+            mine = [frames[name] for name in own]
+            errors = s.errors(T[rows], mine)
             found.append(read_only(errors))
         return found
 
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their Jacobian."""
         errors = self.errors(p)
-        jacobians = self._jacobians(p, self._moved(p), errors)
+        moved = self._moved(p)
+        jacobians = self._jacobians(p, moved, errors)
         return list(map(Linear, errors, jacobians))
 
     def _moved(self, p: Array) -> list[PosesAndTwists]:
         """Poses and their twists at the readings of each set."""
-        T, D = self.model.poses_and_twists(p[: self.model_size], self.q)
+        of_model = p[: self.model_size]
+        T, D = self.model.poses_and_twists(of_model, self.q)
         return [PosesAndTwists(T[rows], D[rows]) for rows in self.rows]
 
     def jacobians(
@@ -133,9 +150,13 @@ class Problem:
         if q is None:
             moved = self._moved(p)
         else:
-            moved = [self.model.poses_and_twists(p[: self.model_size], q)] * len(self.sets)
-        pairs = zip(moved, self.sets, strict=True)
-        errors = [np.zeros((len(m.T), s.width)) for m, s in pairs]
+            of_model = p[: self.model_size]
+            everywhere = self.model.poses_and_twists(of_model, q)
+            moved = [everywhere] * len(self.sets)
+        errors = []
+        for (T, _), s in zip(moved, self.sets, strict=True):
+            zeros = np.zeros((len(T), s.width))
+            errors.append(zeros)
         return self._jacobians(p, moved, errors)
 
     def _jacobians(
@@ -168,8 +189,14 @@ class Problem:
         sets = []
         for s, rows in zip(self.sets, self.rows, strict=True):
             kept = np.flatnonzero(new[rows] >= 0)
-            sets.append(s.subset(kept).with_rows(new[rows[kept]]))
-        return Problem(self.model, self.q[chosen], sets, self.initial_frames)
+            kept_rows = new[rows[kept]]
+            sets.append(s.subset(kept).with_rows(kept_rows))
+        return Problem(
+            self.model,
+            self.q[chosen],
+            sets,
+            self.initial_frames,
+        )
 
 
 def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:
@@ -177,8 +204,11 @@ def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:
     which = ""
     if len(sets) > 1:
         which = f" of measurement set {k}"
-    frames = sets[k].unknown_frames
-    return [u.name + (f" of {u.shared!r}" if u.shared else which) for u in frames]
+    names = []
+    for frame in sets[k].unknown_frames:
+        whose = f" of {frame.shared!r}" if frame.shared else which
+        names.append(frame.name + whose)
+    return names
 
 
 def _moved(frame: Array, eta: Array) -> Array:

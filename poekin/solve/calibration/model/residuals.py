@@ -124,7 +124,8 @@ def residuals(
     parts = []
     for k, (s, e) in enumerate(zip(sets, errors, strict=True)):
         points = max(1, (s.width - s.angular) // 3)
-        length = np.linalg.norm(e[:, s.angular :], axis=1) / np.sqrt(points)
+        together = np.linalg.norm(e[:, s.angular :], axis=1)
+        length = together / np.sqrt(points)
         angle = np.full(len(e), np.nan)
         if s.angular:
             angle = np.linalg.norm(e[:, : s.angular], axis=1)
@@ -136,7 +137,8 @@ def residuals(
 def concatenate(parts: Sequence[Residuals]) -> Residuals:
     """All of these, in the order of set and row."""
     every = _stacked(parts)
-    return every.subset(np.lexsort((every.row, every.set)))
+    order = np.lexsort((every.row, every.set))
+    return every.subset(order)
 
 
 def _stacked(parts: Sequence[Residuals]) -> Residuals:
@@ -151,7 +153,11 @@ def median(values: Array) -> float:
 
 def rms(values: Array) -> float:
     """Root mean square of the values that are not NaN; NaN without any."""
-    return _known(lambda known: np.sqrt(np.mean(known**2)), values)
+
+    def root_mean_square(known: Array) -> Any:
+        return np.sqrt(np.mean(known**2))
+
+    return _known(root_mean_square, values)
 
 
 def largest(values: Array) -> float:

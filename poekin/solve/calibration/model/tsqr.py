@@ -29,7 +29,8 @@ def qr_r(A: Array) -> Array:
         blocks = -(-len(A) // rows)
         padded = np.zeros((blocks * rows, columns))
         padded[: len(A)] = A
-        A = _qr(padded.reshape(blocks, rows, columns)).reshape(-1, columns)
+        triangles = _qr(padded.reshape(blocks, rows, columns))
+        A = triangles.reshape(-1, columns)
     return _qr(A)
 
 

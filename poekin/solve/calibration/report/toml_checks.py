@@ -64,7 +64,9 @@ def parameters(
     rows = keys.tables("parameter", (*Parameter._fields, "value", "deviation"))
     found = tuple(map(_parameter, rows))
     own = model.parameters
-    size = len(own) + sum(6 if T.ndim == 2 else 3 for T in frames.values())
+    count = len(own)
+    of_each = (6 if T.ndim == 2 else 3 for T in frames.values())
+    size = count + sum(of_each)
     if len(found) != size:
         raise keys.fault(
             "parameter",
@@ -75,7 +77,7 @@ def parameters(
             name = quote(expected.name)
             got = quote(found[k].name)
             raise rows[k].fault("what", f"expected {name}, the arm's parameter {k + 1}, got {got}")
-    of_frames = zip(rows[len(own) :], found[len(own) :], strict=True)
+    of_frames = zip(rows[count:], found[count:], strict=True)
     for row, given in of_frames:
         if given.owner not in frames:
             raise row.fault("owner", f"expected a name in frames, got {quote(given.owner)}")
@@ -92,16 +94,19 @@ def _key(parameter: Parameter) -> tuple[str, str, str]:
     """A parameter without the directions in its name, numbers that another machine may round
     otherwise.
     """
-    return parameter.owner, parameter.what.partition(" (")[0], parameter.unit
+    what, _, _ = parameter.what.partition(" (")
+    return parameter.owner, what, parameter.unit
 
 
 def _covariance(keys: Keys, rows: list[Keys]) -> Array:
     """Covariance (P, P), with the deviations of the parameters. Raises: ModelError."""
-    covariance = keys.array("covariance", (len(rows), len(rows)))
+    count = len(rows)
+    covariance = keys.array("covariance", (count, count))
     variances = np.diag(covariance)
     sizes = np.sqrt(np.abs(variances))
     with np.errstate(over="ignore"):
-        uneven = np.abs(covariance - covariance.T) > 1e-9 * np.outer(sizes, sizes)
+        apart = np.abs(covariance - covariance.T)
+        uneven = apart > 1e-9 * np.outer(sizes, sizes)
     if (variances < 0).any() or uneven.any():
         raise keys.fault(
             "covariance",
@@ -114,15 +119,22 @@ def _covariance(keys: Keys, rows: list[Keys]) -> Array:
     return covariance
 
 
-def check_chain(keys: Keys, model: ErrorModel, values: Array, chain: Chain) -> None:
+def check_chain(
+    keys: Keys,
+    model: ErrorModel,
+    values: Array,
+    chain: Chain,
+) -> None:
     """Refuse a calibrated chain that is not what the parameters make of the nominal one."""
     try:
         own = model.chain(values[: len(model.parameters)])
     except PoekinError as fault:
         raise ModelError(f"{keys.place}: parameter: {fault}") from fault
     same = all(getattr(own, name) == getattr(chain, name) for name in _SAME)
-    differences = (getattr(own, name) - getattr(chain, name) for name in _NEAR)
-    off = [np.abs(difference).max(initial=0.0) for difference in differences]
+    off = []
+    for name in _NEAR:
+        difference = getattr(own, name) - getattr(chain, name)
+        off.append(np.abs(difference).max(initial=0.0))
     if not same or not max(off) <= _AGREE * own.reach:
         raise keys.fault(CALIBRATED, "the chain is not what the parameters make of the nominal one")
 
