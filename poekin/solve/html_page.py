@@ -81,15 +81,22 @@ def caption(words: str) -> str:
 
 def figure(picture: str, words: str) -> str:
     """Inline SVG with its caption."""
-    return element("figure", picture + element("figcaption", text(words)))
+    below = element("figcaption", text(words))
+    return element("figure", picture + below)
 
 
 def details(words: str, inner: str) -> str:
     """Part that is folded away under a summary."""
-    return element("details", element("summary", text(words)) + inner)
+    summary = element("summary", text(words))
+    return element("details", summary + inner)
 
 
-def row(cells: Iterable[str], kinds: Sequence[str], kind: str = "", tag: str = "td") -> str:
+def row(
+    cells: Iterable[str],
+    kinds: Sequence[str],
+    kind: str = "",
+    tag: str = "td",
+) -> str:
     """Row of a table, of a class: texts, and the class of each."""
     inner = ""
     for words, cell_kind in zip(cells, kinds, strict=True):
@@ -97,8 +104,13 @@ def row(cells: Iterable[str], kinds: Sequence[str], kind: str = "", tag: str = "
     return element("tr", inner, kind)
 
 
-def table(heads: Sequence[str], kinds: Sequence[str], rows: Iterable[str]) -> str:
+def table(
+    heads: Sequence[str],
+    kinds: Sequence[str],
+    rows: Iterable[str],
+) -> str:
     """Table of rows that are HTML already, under heads of these classes."""
     head = element("thead", row(heads, kinds, tag="th"))
-    body = element("tbody", "\n" + "".join(f"{line}\n" for line in rows))
+    lines = "".join(f"{line}\n" for line in rows)
+    body = element("tbody", "\n" + lines)
     return element("div", element("table", head + body), "wide")

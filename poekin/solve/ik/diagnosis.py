@@ -60,12 +60,14 @@ def diagnose(
     """
     if not problem.underactuated:
         return find_causes(problem, targets, q, info, success)
-    known = ~success & (info[:, codes.AT_STATE] != codes.BAD_TARGET)
-    settle(problem, targets, q, info, np.flatnonzero(known))
-    success = problem.pose_errors(targets, problem.coordinates(q))[1]
+    known = info[:, codes.AT_STATE] != codes.BAD_TARGET
+    unsolved = np.flatnonzero(~success & known)
+    settle(problem, targets, q, info, unsolved)
+    _, success = problem.pose_errors(targets, problem.coordinates(q))
     causes = find_causes(problem, targets, q, info, success)
     unreached = np.flatnonzero(causes.reason == UNREACHABLE)
-    return causes._replace(reachable_tasks=reachable_tasks(problem, targets, first, unreached))
+    tasks = reachable_tasks(problem, targets, first, unreached)
+    return causes._replace(reachable_tasks=tasks)
 
 
 def find_causes(
@@ -111,7 +113,12 @@ def find_causes(
     return Causes(reason, beyond, tuple(hit))
 
 
-def distance_beyond_reach(chain: Chain, task: Task, targets: Array, limits: Array) -> Array:
+def distance_beyond_reach(
+    chain: Chain,
+    task: Task,
+    targets: Array,
+    limits: Array,
+) -> Array:
     """Distance of each target from the first joint, less the length of all links and slides (m); 0
     within the reach.
 
@@ -124,8 +131,10 @@ def distance_beyond_reach(chain: Chain, task: Task, targets: Array, limits: Arra
     frames = chain.local.frames
     offsets = targets[:, :3, 3] - frames[0, :3, 3]
     if task.name == "planar":
-        offsets = offsets - np.outer(offsets @ task.axis, task.axis)
-    length = np.linalg.norm(frames[1:, :3, 3], axis=1).sum()
+        heights = offsets @ task.axis
+        offsets = offsets - np.outer(heights, task.axis)
+    links = np.linalg.norm(frames[1:, :3, 3], axis=1)
+    length = links.sum()
     ratios = np.abs(chain.coupling)
     farthest = np.abs(limits).max(axis=1, initial=0.0)
     slides = np.abs(chain.local.slides)
@@ -139,7 +148,13 @@ def distance_beyond_reach(chain: Chain, task: Task, targets: Array, limits: Arra
     return np.maximum(far - length * (1 + 1e-12), 0.0)
 
 
-def settle(problem: Problem, targets: Array, q: Array, info: Array, rows: np.ndarray) -> None:
+def settle(
+    problem: Problem,
+    targets: Array,
+    q: Array,
+    info: Array,
+    rows: np.ndarray,
+) -> None:
     """Takes the joints of these rows on to the least error, where they come to rest.
 
     The tries end where a step hardly helps: enough for a target that is reached, and not where the
@@ -189,7 +204,10 @@ def limits_hit(
     the solution without limits.
     """
     lower, upper = domain.limits.T
-    off = np.minimum(np.abs(q - lower), np.abs(q - upper))
+    off = np.minimum(
+        np.abs(q - lower),
+        np.abs(q - upper),
+    )
     hit = (off <= AT_LIMIT) & ~domain.locked
     if not hit.any():
         hit = (found < lower) | (found > upper)

@@ -119,7 +119,13 @@ def first_tries(
     return domain.held(first)
 
 
-def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: str) -> Array:
+def for_targets(
+    chain: Chain,
+    batch: tuple[int, ...],
+    count: int,
+    q: Any,
+    what: str,
+) -> Array:
     """Configuration for each of `count` targets (N, m), as a user gives it, finite.
 
     Raises: InputError, ShapeError, UnknownName.

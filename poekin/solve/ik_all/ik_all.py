@@ -128,10 +128,7 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     solver = _solver(fast.chain, method)
     rule = Rule(min_hits, restarts, iterations, _MAX_MISSES, int(seed))
     found = _found(fast, rows[finite], solver, rule, limits)
-    nothing = Found(np.empty((0, fast.dof)), np.empty(0), 0, 1, False)
-    every = [nothing] * len(rows)
-    for k, f in zip(np.flatnonzero(finite), found, strict=True):
-        every[k] = f
+    every = _of_every_target(found, finite, fast.dof)
     places = _places(fast.chain, every, limits, all_revolutions)
     signs = np.sign(units.of(np.ones(fast.dof)))
     order = _order(places.q * signs, places.owner)
@@ -187,16 +184,38 @@ def _found(
     """Solutions of targets (N, 4, 4), by the closed form where there is one, else by search."""
     if solver is None:
         none = np.empty((0, fast.dof))
-        return search(fast, T, [none] * len(T), rule, limits)
+        starts = [none] * len(T)
+        return search(fast, T, starts, rule, limits)
     starts, given_up = _starts(solver, T)
     these_alone = Rule(1, 0, rule.iterations)
     found = search(fast, T, starts, these_alone, limits)
     # where solutions become one or infinitely many, a closed form may lose them
     unsure = [k for k, f in enumerate(found) if f.singular or k in given_up]
-    again = search(fast, T[unsure], [starts[k] for k in unsure], rule, limits)
+    given = [starts[k] for k in unsure]
+    again = search(fast, T[unsure], given, rule, limits)
     for k, f in zip(unsure, again, strict=True):
         found[k] = f
     return found
+
+
+def _of_every_target(
+    found: list[Found],
+    finite: np.ndarray,
+    dof: int,
+) -> list[Found]:
+    """Solutions of all targets, none of those that are not finite."""
+    nothing = Found(
+        solutions=np.empty((0, dof)),
+        hits=np.empty(0),
+        ends=0,
+        restarts=1,
+        full=False,
+    )
+    every = [nothing] * len(finite)
+    numbers = np.flatnonzero(finite)
+    for k, f in zip(numbers, found, strict=True):
+        every[k] = f
+    return every
 
 
 def _starts(solver: ClosedForm, T: Array) -> tuple[list[Array], set[int]]:
@@ -228,7 +247,12 @@ class _Places(NamedTuple):
     within: np.ndarray
 
 
-def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: bool) -> _Places:
+def _places(
+    chain: Chain,
+    found: list[Found],
+    limits: bool,
+    all_revolutions: bool,
+) -> _Places:
     """The solutions within the limits; of those that are whole turns apart the one nearest to 0, or
     all.
     """
@@ -247,7 +271,8 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
     with np.errstate(over="ignore"):
         number = (last - first + 1).prod(axis=1)
     if all_revolutions:
-        most = np.bincount(owner, number, minlength=1).max(initial=0)
+        places = np.bincount(owner, number, minlength=1)
+        most = places.max(initial=0)
         if most > MOST:
             raise InputError(
                 f"all_revolutions: {most:.0f} places for one target, more than {MOST}; "
@@ -260,7 +285,8 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
         number = np.ones(len(Q))
     counts = np.array([int(min(n, _MANY)) for n in number], np.int64)
     low, high = bounds(chain, limits).T
-    q = np.clip(Q + periods(chain) * nearest, low, high) + 0.0
+    turned = Q + periods(chain) * nearest
+    q = np.clip(turned, low, high) + 0.0
     return _Places(q, owner, counts, within)
 
 
@@ -278,7 +304,8 @@ def _order(q: Array, owner: np.ndarray) -> np.ndarray:
     """The order of solutions (S, m): target by target, sorted; what differs by rounding alone, by
     later coordinates.
     """
-    return np.lexsort((*np.round(q, 9).T[::-1], owner))
+    columns = np.round(q, 9).T
+    return np.lexsort((*columns[::-1], owner))
 
 
 def _result(
@@ -293,13 +320,17 @@ def _result(
     batch = T.shape[:-2]
     wanted = T.reshape(-1, 4, 4)[places.owner]
     errors = pose_errors(chain, POSE, places.q, wanted)
-    good = np.flatnonzero((errors <= accepted(chain)).all(axis=1))
+    reached = (errors <= accepted(chain)).all(axis=1)
+    good = np.flatnonzero(reached)
     numbers = np.arange(len(found) + 1)
     ends = np.searchsorted(places.owner[good], numbers)
     own = [good[a:b] for a, b in itertools.pairwise(ends)]
-    worst = [errors[k].max(axis=0) if len(k) else (np.nan, np.nan) for k in own]
+    nothing = (np.nan, np.nan)
+    worst = [errors[k].max(axis=0) if len(k) else nothing for k in own]
     position, rotation = np.reshape(worst, (-1, 2)).T
     moving = [len(f.self_motion_coordinates) > 0 for f in found]
+    counts = [len(f.solutions) for f in found]
+    missing = [missing_probability(f) for f in found]
     lists: dict[str, Any] = {
         "solutions": [places.q[k] for k in own],
         "n_revolutions": [places.number[k] for k in own],
@@ -311,9 +342,9 @@ def _result(
         **lists,
         method=method,
         count=np.diff(ends).reshape(batch),
-        anywhere=np.array([len(f.solutions) for f in found], int).reshape(batch),
+        anywhere=np.array(counts, int).reshape(batch),
         continuum=np.array(moving, bool).reshape(batch),
-        p_missing=np.array([missing_probability(f) for f in found]).reshape(batch),
+        p_missing=np.array(missing).reshape(batch),
         position_error=position.reshape(batch),
         rotation_error=rotation.reshape(batch),
     )

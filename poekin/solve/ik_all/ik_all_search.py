@@ -19,7 +19,11 @@ from ..ik.ik_problem import kernel_options
 from ..ik.task import Task
 from ..joint_units import bounds, periods
 
-POSE = Task("pose", axis=np.zeros(3), weights=np.ones(6))
+POSE = Task(
+    "pose",
+    axis=np.zeros(3),
+    weights=np.ones(6),
+)
 
 
 def accepted(chain: Chain) -> float:
@@ -84,9 +88,11 @@ def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
     low, high = bounds(chain, limits).T
     turns = turn > 0
     step = np.where(turns, turn, 1.0)
-    first = np.ceil((low - _EDGE - Q) / step)
-    last = np.floor((high + _EDGE - Q) / step)
-    inside = (low - _EDGE <= Q) & (high + _EDGE >= Q)
+    lowest = low - _EDGE
+    highest = high + _EDGE
+    first = np.ceil((lowest - Q) / step)
+    last = np.floor((highest - Q) / step)
+    inside = (lowest <= Q) & (highest >= Q)
     first = np.where(turns, first, ~inside)
     last = np.where(turns, last, 0.0)
     return first, last
@@ -94,9 +100,12 @@ def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
 
 def joined(found: list[Found], dof: int) -> tuple[Array, np.ndarray]:
     """Solutions (S, m) of all targets, and the number of the target of each."""
+    none = np.empty((0, dof))
     parts = [f.solutions for f in found]
-    owner = np.repeat(np.arange(len(found)), [len(q) for q in parts])
-    return np.concatenate([np.empty((0, dof)), *parts]), owner
+    numbers = np.arange(len(found))
+    counts = [len(q) for q in parts]
+    owner = np.repeat(numbers, counts)
+    return np.concatenate([none, *parts]), owner
 
 
 def search(
@@ -128,10 +137,7 @@ def _search(
     chain = fast.chain
     N = len(T)
     m = fast.dof
-    given = np.array([len(Q) for Q in starts], np.float64)
-    rows = np.zeros((N, int(given.max(initial=0)), m))
-    for k, Q in enumerate(starts):
-        rows[k, : len(Q)] = Q
+    rows, given = _padded(starts, m)
     turn = periods(chain)
     # a coordinate that turns is free, and brought into its limits at the end; another one has only
     # its own range
@@ -166,7 +172,22 @@ def _search(
     return found
 
 
-def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) -> list[Found]:
+def _padded(starts: Sequence[Array], dof: int) -> tuple[Array, Array]:
+    """Starts of all targets (N, s, m), filled up to as many of each, and how many are given (N,)."""
+    given = np.array([len(Q) for Q in starts], np.float64)
+    most = int(given.max(initial=0))
+    rows = np.zeros((len(starts), most, dof))
+    for k, Q in enumerate(starts):
+        rows[k, : len(Q)] = Q
+    return rows, given
+
+
+def _looked_at(
+    fast: CompiledChain,
+    T: Array,
+    found: list[Found],
+    limits: bool,
+) -> list[Found]:
     """Which targets have singular solutions; of those that belong to a continuum only one is kept,
     within the limits if one is.
     """
@@ -181,31 +202,43 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
         result[k] = f
         ways: dict[int, Array] = {}
         for j, i in enumerate(np.flatnonzero(owner == k)):
-            way = _way_along(fast, T[k], q[i], J[i]) if singular[i] else None
+            way = None
+            if singular[i]:
+                way = _way_along(fast, T[k], q[i], J[i])
             if way is not None:
-                ways[j] = np.abs(way) / np.abs(way).max()
+                change = np.abs(way)
+                ways[j] = change / change.max()
         if ways:
             met = list(ways)
             first, last = turns_within(fast.chain, f.solutions[met], limits)
-            kept = met[int(np.argmax((first <= last).all(axis=1)))]
-            alone = [j for j in range(len(f.hits)) if j == kept or j not in ways]
-            moves = np.max(list(ways.values()), axis=0) > _MOVES
+            within = (first <= last).all(axis=1)
+            kept = met[int(np.argmax(within))]
+            every = range(len(f.hits))
+            alone = [j for j in every if j == kept or j not in ways]
+            changes = np.max(list(ways.values()), axis=0)
+            moving = itertools.compress(fast.q_names, changes > _MOVES)
             result[k] = replace(
                 f,
                 solutions=f.solutions[alone],
                 hits=f.hits[alone],
-                self_motion_coordinates=tuple(itertools.compress(fast.q_names, moves)),
+                self_motion_coordinates=tuple(moving),
             )
     return result
 
 
 def _size(chain: Chain) -> float:
     """Length of all links together (m), 1 where all are points."""
-    links = np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1)
+    offsets = chain.local.frames[1:, :3, 3]
+    links = np.linalg.norm(offsets, axis=1)
     return float(links.sum()) or 1.0
 
 
-def _way_along(fast: CompiledChain, T: Array, q: Array, J: Array) -> Array | None:
+def _way_along(
+    fast: CompiledChain,
+    T: Array,
+    q: Array,
+    J: Array,
+) -> Array | None:
     """Changes of the coordinates along a continuum of solutions through q, or None where there is
     none.
 
@@ -213,15 +246,18 @@ def _way_along(fast: CompiledChain, T: Array, q: Array, J: Array) -> Array | Non
     again: of a double solution it comes back, along a continuum it stays a step away.
     """
     _, sizes, V = np.linalg.svd(J)
-    lost = V[: len(sizes)][sizes < _SINGULAR * sizes[0]]
+    singular = sizes < _SINGULAR * sizes[0]
+    lost = V[: len(sizes)][singular]
     turn = periods(fast.chain)
+    divisor = np.where(turn > 0, turn, np.inf)
     rule = Rule(min_hits=1, restarts=0, iterations=200)
     for way in lost:
         start = q + _STEP * way
         (end,) = _search(fast, T[None], [start[None]], rule)
         if len(end.solutions):
             step = end.solutions[0] - q
-            step -= turn * np.round(step / np.where(turn > 0, turn, np.inf))
-            if _STEP / 4 < np.linalg.norm(step) < 2 * _STEP:
+            step -= turn * np.round(step / divisor)
+            length = np.linalg.norm(step)
+            if _STEP / 4 < length < 2 * _STEP:
                 return step
     return None

@@ -104,9 +104,11 @@ def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
     R_0 = _exact(T_s0)[..., :3, :3]
     R_1 = _exact(T_s1)[..., :3, :3]
     T = T_s0.copy()
-    w = so3.log(np.swapaxes(R_0, -1, -2) @ R_1)
+    R_01 = np.swapaxes(R_0, -1, -2) @ R_1
+    w = so3.log(R_01)
     way = T_s1[..., :3, 3] - T_s0[..., :3, 3]
-    T[..., :3, :3] = R_0 @ exp_of_vectors(s[..., None] * w)
+    turned = exp_of_vectors(s[..., None] * w)
+    T[..., :3, :3] = R_0 @ turned
     T[..., :3, 3] += s[..., None] * way
     return _with_ends(T, T_s0, T_s1, s)
 
@@ -140,12 +142,14 @@ def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
     q_0 = numbers(q_0, "q_0")
     q_1 = numbers(q_1, "q_1")
     s = numbers(s, "s")[..., None]
-    if not q_0.ndim or not q_1.ndim or q_0.shape[-1] != q_1.shape[-1]:
+    scalar = not q_0.ndim or not q_1.ndim
+    if scalar or q_0.shape[-1] != q_1.shape[-1]:
         raise ShapeError(
             f"q_0, q_1: expected (..., m) with the same m, got {q_0.shape} and {q_1.shape}"
         )
     try:
-        return np.where(s == 1, q_1, q_0 + s * (q_1 - q_0))
+        q = q_0 + s * (q_1 - q_0)
+        return np.where(s == 1, q_1, q)
     except ValueError as error:
         shapes = f"{q_0.shape}, {q_1.shape} and s {s.shape[:-1]}"
         raise ShapeError(f"q_0, q_1: the leading axes do not broadcast: {shapes}") from error
@@ -194,17 +198,28 @@ def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: Path = "line") -> Arra
     way = end[..., :3, 3] - start[..., :3, 3]
     if along == "screw":
         way = xi[..., 3:]
-    lengths = [np.linalg.norm(x, axis=-1) for x in (way, xi[..., :3])]
+    lengths = [
+        np.linalg.norm(way, axis=-1),
+        np.linalg.norm(xi[..., :3], axis=-1),
+    ]
     return np.stack(lengths, axis=-1)
 
 
-def _together(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> tuple[Array, Array, Array]:
+def _together(
+    T_s0: ArrayLike,
+    T_s1: ArrayLike,
+    s: ArrayLike,
+) -> tuple[Array, Array, Array]:
     """Two arrays of poses and s, of the same leading axes."""
     T_s0 = poses(T_s0, "T_s0")
     T_s1 = poses(T_s1, "T_s1")
     s = numbers(s, "s")
     try:
-        batch = np.broadcast_shapes(T_s0.shape[:-2], T_s1.shape[:-2], s.shape)
+        batch = np.broadcast_shapes(
+            T_s0.shape[:-2],
+            T_s1.shape[:-2],
+            s.shape,
+        )
     except ValueError as error:
         shapes = f"T_s0 {T_s0.shape}, T_s1 {T_s1.shape} and s {s.shape}"
         raise ShapeError(f"the leading axes do not broadcast: {shapes}") from error
@@ -218,11 +233,17 @@ def _exact(T: Array) -> Array:
     more together.
     """
     T = T.copy()
-    T[..., :3, :3] = exp_of_vectors(so3.log(T[..., :3, :3]))
+    w = so3.log(T[..., :3, :3])
+    T[..., :3, :3] = exp_of_vectors(w)
     return T
 
 
-def _with_ends(T: Array, T_s0: Array, T_s1: Array, s: Array) -> Array:
+def _with_ends(
+    T: Array,
+    T_s0: Array,
+    T_s1: Array,
+    s: Array,
+) -> Array:
     """The path with the poses as they were given at its ends."""
     s = s[..., None, None]
     T = np.where(s == 1, T_s1, T)

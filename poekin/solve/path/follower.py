@@ -71,7 +71,12 @@ class Follower:
             self.progress(count, count)
         return q, changes
 
-    def on(self, k: int, last: Array, first: bool) -> tuple[int, Array]:
+    def on(
+        self,
+        k: int,
+        last: Array,
+        first: bool,
+    ) -> tuple[int, Array]:
         """The path from pose k on as far as it goes without a jump, beginning at joints `last`; its
         end, and q.
         """
@@ -83,7 +88,8 @@ class Follower:
             done += self._descend(targets[done:], last, q[done:], anywhere)
             if done in (0, len(targets)):
                 break
-            next_q = self._in_pieces(q[done - 1], targets[done - 1], targets[done])
+            before = done - 1
+            next_q = self._in_pieces(q[before], targets[before], targets[done])
             if next_q is None:
                 break
             q[done] = next_q
@@ -95,15 +101,16 @@ class Follower:
         """The one of several solutions of pose k that gets farthest, and then jumps and moves
         least; its end, and q.
         """
-        found = (k, np.empty((0, len(self.most))))
         tried = np.empty((0, len(self.most)))
+        found = (k, tried)
         score: tuple[float, ...] = (k,)
-        known = self._known is not None and self._known[0] <= k
-        if known and not self._solved(k):
+        asked = self._known is not None and self._known[0] <= k
+        if asked and not self._solved(k):
             return found
         for turn in range(ROUNDS):
             for q0 in self._solutions(k, turn, last):
-                far = np.abs(tried - q0).max(axis=1)
+                apart = np.abs(tried - q0)
+                far = apart.max(axis=1)
                 if (far < 1e-6).any():
                     continue
                 tried = np.vstack([tried, q0])
@@ -128,38 +135,64 @@ class Follower:
             return ITERATIONS, 0.0, (), ()
         tasks = solution.reachable_tasks[at] if solution.reachable_tasks else ()
         beyond = float(solution.distance_beyond_reach[at])
-        return str(solution.reason[at]), beyond, solution.limits_hit[at], tasks
+        reason = str(solution.reason[at])
+        return reason, beyond, solution.limits_hit[at], tasks
 
-    def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
+    def _descend(
+        self,
+        targets: Array,
+        start: Array,
+        q: Array,
+        anywhere: bool = False,
+    ) -> int:
         """Number of targets that are followed from `start`; where `anywhere`, the first of them at
         any distance from it.
         """
         from ...engine.kernels import follow_kernels  # imports Numba
 
         arm = self.problem.fast.hybrid_address
-        asked = (self.problem.domain.limits, self.problem.locked, self.problem.options)
+        asked = (
+            self.problem.domain.limits,
+            self.problem.locked,
+            self.problem.options,
+        )
         info = np.empty((len(targets), codes.INFO))
 
         def go(some: slice, start: Array, most: Array) -> int:
-            place = (most, q[some], info[some])
-            return follow_kernels.follow.call(arm, targets[some], start.copy(), *asked, *place)
+            return follow_kernels.follow.call(
+                arm,
+                targets[some],
+                start.copy(),
+                *asked,
+                most,
+                q[some],
+                info[some],
+            )
 
         if not anywhere:
             return go(slice(None), start, self.most)
-        if not go(slice(1), start, np.full_like(start, np.inf)):
+        unbounded = np.full_like(start, np.inf)
+        if not go(slice(1), start, unbounded):
             return 0
-        return 1 + go(slice(1, None), q[0], self.most)
+        rest = slice(1, None)
+        return 1 + go(rest, q[0], self.most)
 
-    def _in_pieces(self, q_a: Array, T_a: Array, T_b: Array) -> Array | None:
+    def _in_pieces(
+        self,
+        q_a: Array,
+        T_a: Array,
+        T_b: Array,
+    ) -> Array | None:
         """The joints at T_b, by smaller and smaller steps from q_a at T_a; None where no step is
         small enough.
         """
         for pieces in PIECES:
-            between = paths.screw(T_a, T_b, np.arange(1, pieces + 1) / pieces)
+            s = np.arange(1, pieces + 1) / pieces
+            between = paths.screw(T_a, T_b, s)
             q = np.empty((pieces, len(self.most)))
             if self.problem.underactuated:
-                q[-2] = self._beside(between[:-1], q_a)
-                if self._descend(between[-1:], q[-2], q[-1:]):
+                beside = self._beside(between[:-1], q_a)
+                if self._descend(between[-1:], beside, q[-1:]):
                     return q[-1]
             elif self._descend(between, q_a, q) == pieces:
                 return q[-1]
@@ -191,21 +224,31 @@ class Follower:
         slope = partial(slope_at, self.problem, target)
         return least_error(slope, q, domain.held(low), domain.held(high))
 
-    def _solutions(self, k: int, turn: int, last: Array | None) -> Array:
+    def _solutions(
+        self,
+        k: int,
+        turn: int,
+        last: Array | None,
+    ) -> Array:
         """Solutions of pose k: the nearest to the last joints first, then of random starts."""
+        domain = self.problem.domain
         T = np.tile(self.targets[k], (TRIES, 1, 1))
         number = np.arange(TRIES, dtype=float) + TRIES * turn
-        anywhere = self.problem.domain.anywhere(TRIES)
+        anywhere = domain.anywhere(TRIES)
         q, info = self.problem.solve(T, number, anywhere, restarts=10)
-        q = q[info[:, codes.AT_STATE] == codes.SOLVED]
+        solved = info[:, codes.AT_STATE] == codes.SOLVED
+        q = q[solved]
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
-            near_to = self.problem.domain.ranges.mean(axis=1) if last is None else last
-            q = self.problem.domain.wrapped(q, near_to)
+            near_to = last
+            if last is None:
+                near_to = domain.ranges.mean(axis=1)
+            q = domain.wrapped(q, near_to)
         if last is not None and turn == 0:
             here = self.problem.coordinates(last)
             near = solve(self.problem, self.targets[k], nearest_to=here)
             if near.success:
-                q = np.vstack([self.problem.units.of(near.q), q])
+                nearest = self.problem.units.of(near.q)
+                q = np.vstack([nearest, q])
         if not len(q) and self._solved(k):
             return self._near(k, None)
         return q
@@ -217,6 +260,7 @@ class Follower:
     def _solution_of(self, k: int) -> tuple[Solution, int]:
         """Solutions by `ik` of pose k and all that follow, asked once; and where k stands there."""
         if self._known is None or self._known[0] > k:
-            self._known = k, solve(self.problem, self.targets[k:])
+            solution = solve(self.problem, self.targets[k:])
+            self._known = k, solution
         first, solution = self._known
         return solution, k - first

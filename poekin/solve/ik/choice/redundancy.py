@@ -29,7 +29,13 @@ def check_objective(objective: Any, q0: Any) -> None:
         raise InputError("secondary_objective: 'nearest' needs q0, what to be near to")
 
 
-def optimise(problem: Problem, targets: Array, q: Array, q0: Array, objective: Objective) -> Array:
+def optimise(
+    problem: Problem,
+    targets: Array,
+    q: Array,
+    q0: Array,
+    objective: Objective,
+) -> Array:
     """Solutions with a better value of the objective, of targets that are solved already."""
     best = q.copy()
     known = ~np.isnan(q).any(axis=1)  # of a bad target nothing is known
@@ -49,7 +55,8 @@ def _improved(aim: Aim, targets: Array, best: Array) -> Array:
         tried = aim.moved(best, step)
         found, info = aim.problem.solve(targets, indices, tried, restarts=0)
         new = aim.value(found)
-        better = (info[:, codes.AT_STATE] == codes.SOLVED) & (new < value)
+        solved = info[:, codes.AT_STATE] == codes.SOLVED
+        better = solved & (new < value)
         best[better] = found[better]
         value[better] = new[better]
         step = np.where(better, step, 0.5 * step)
@@ -72,7 +79,8 @@ class Aim(NamedTuple):
         if self.goal is not None:
             squares = (q - self.goal) ** 2
             return (squares * self.weights).sum(axis=1)
-        sizes = np.linalg.svd(_jacobian(self.problem, q), compute_uv=False)
+        J = _jacobian(self.problem, q)
+        sizes = np.linalg.svd(J, compute_uv=False)
         sizes = sizes[:, : self.problem.generic_rank]
         with np.errstate(divide="ignore"):
             return -np.log(sizes).sum(axis=1)
@@ -82,8 +90,10 @@ class Aim(NamedTuple):
         domain = self.problem.domain
         J = _jacobian(self.problem, q)
         z = self._way(q)
-        within_task = np.linalg.pinv(J) @ (J @ z[..., None])
-        moved = q + step[:, None] * (z - within_task[..., 0])
+        of_task = J @ z[..., None]
+        within_task = np.linalg.pinv(J) @ of_task
+        beside_task = z - within_task[..., 0]
+        moved = q + step[:, None] * beside_task
         return domain.held(np.clip(moved, *domain.limits.T))
 
     def _way(self, q: Array) -> Array:
@@ -93,10 +103,13 @@ class Aim(NamedTuple):
         if self.goal is not None:
             return (self.goal - q) * self.weights
         z = np.empty_like(q)
-        for k, h in enumerate(DIFFERENCE * np.eye(q.shape[1])):
+        steps = DIFFERENCE * np.eye(q.shape[1])
+        for k, h in enumerate(steps):
             with np.errstate(invalid="ignore"):  # infinite less infinite
-                z[:, k] = self.value(q - h) - self.value(q + h)
-        z = np.where(np.isfinite(z), z, 0.0) * (0.5 / DIFFERENCE)
+                before = self.value(q - h)
+                z[:, k] = before - self.value(q + h)
+        finite = np.where(np.isfinite(z), z, 0.0)
+        z = finite * (0.5 / DIFFERENCE)
         size = np.linalg.norm(z, axis=1, keepdims=True)
         return z / np.maximum(size, 1.0)
 
@@ -109,12 +122,15 @@ def make_aim(problem: Problem, q0: Array, objective: Objective) -> Aim:
         return Aim(problem, q0)
     limits = problem.domain.limits
     limited = np.asarray(np.isfinite(limits).all(axis=1))
-    middles = np.where(limited[:, None], limits, 0.0).mean(axis=1)
-    return Aim(problem, np.where(limited, middles, q0), limited.astype(float))
+    finite = np.where(limited[:, None], limits, 0.0)
+    middles = finite.mean(axis=1)
+    goal = np.where(limited, middles, q0)
+    return Aim(problem, goal, limited.astype(float))
 
 
 def _jacobian(problem: Problem, q: Array) -> Array:
     """Jacobian of what the task constrains; a locked coordinate moves nothing."""
+    task = problem.task
     T, J = problem.fast.fk_jacobian(q, "hybrid")
-    rows = problem.task.jacobian(T, J)[:, problem.task.weights > 0]
+    rows = task.jacobian(T, J)[:, task.weights > 0]
     return np.where(problem.domain.locked, 0.0, rows)
