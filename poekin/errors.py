@@ -56,7 +56,9 @@ class MissingExtra(PoekinError, ImportError):
 
     def __init__(self, package: str, extra: str, purpose: str) -> None:
         super().__init__(f"{purpose} needs the package {package}: pip install 'poekin[{extra}]'")
-        self.package, self.extra, self.purpose = package, extra, purpose
+        self.package = package
+        self.extra = extra
+        self.purpose = purpose
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.package, self.extra, self.purpose)
@@ -68,11 +70,16 @@ class PoekinWarning(UserWarning):
 
 def escape_unprintable(text: object, width: int | None = None, keep: str = "") -> str:
     """Text whose unprintable characters are escaped, except those in `keep`, cut at `width`."""
-    plain = "".join(
-        c if c.isprintable() or c in keep else c.encode("unicode_escape").decode()
-        for c in str(text)
-    )
-    return plain if width is None or len(plain) <= width else plain[: width - 1] + "…"
+
+    def shown(c: str) -> str:
+        if c.isprintable() or c in keep:
+            return c
+        return c.encode("unicode_escape").decode()
+
+    plain = "".join(map(shown, str(text)))
+    if width is None or len(plain) <= width:
+        return plain
+    return plain[: width - 1] + "…"
 
 
 def quote(name: object, width: int = 80) -> str:
@@ -88,15 +95,19 @@ def safe_repr(value: object, width: int = 80) -> str:
 def show_numbers(values: Iterable[float]) -> str:
     """Numbers to six digits in brackets; what is rounding beside the largest of them is 0."""
     row = [float(x) for x in values]
-    small = 1e-12 * max((abs(x) for x in row if math.isfinite(x)), default=0.0)
-    return str([0.0 if abs(x) <= small else float(f"{x:.6g}") for x in row])
+    sizes = (abs(x) for x in row if math.isfinite(x))
+    small = 1e-12 * max(sizes, default=0.0)
+    shown = [0.0 if abs(x) <= small else float(f"{x:.6g}") for x in row]
+    return str(shown)
 
 
 def join_names(names: Iterable[object], most: int = 12) -> str:
     """First `most` names, quoted and joined by commas, and the number of the others."""
     every = list(names)
-    more = f" and {len(every) - most} more" if len(every) > most else ""
-    return ", ".join(map(quote, every[:most])) + more
+    listed = ", ".join(map(quote, every[:most]))
+    if len(every) <= most:
+        return listed
+    return f"{listed} and {len(every) - most} more"
 
 
 def close_names(name: object, available: Iterable[str], most: int = 5) -> list[str]:
@@ -110,7 +121,8 @@ def close_names(name: object, available: Iterable[str], most: int = 5) -> list[s
     near = difflib.get_close_matches(asked, spelled, n=most, cutoff=0.6)
     if asked in spelled:
         near = [asked]
-    return [known for folded in near for known in spelled[folded]][:most]
+    found = [known for folded in near for known in spelled[folded]]
+    return found[:most]
 
 
 def suggest(name: object, available: Iterable[str], most: int = 5) -> str:
@@ -120,5 +132,6 @@ def suggest(name: object, available: Iterable[str], most: int = 5) -> str:
         return "there are none"
     close = close_names(name, names, most)
     if close:
-        return "did you mean " + " or ".join(quote(c) for c in close) + "?"
+        meant = " or ".join(map(quote, close))
+        return f"did you mean {meant}?"
     return "available: " + join_names(names, most)

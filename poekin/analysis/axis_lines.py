@@ -37,7 +37,8 @@ def cross(x: Array, y: Array) -> Array:
 
 def prismatic(chain: Chain) -> Marks:
     """Whether each joint is prismatic (n)."""
-    return np.array([kind == "prismatic" for kind in chain.kinds], bool)
+    slides = [kind == "prismatic" for kind in chain.kinds]
+    return np.array(slides, bool)
 
 
 def direction(axes: Array, slides: Marks) -> Array:
@@ -57,28 +58,33 @@ def sine(w: Array, u: Array) -> float:
 
 def line_angle(w: Array, u: Array) -> float:
     """Angle between two lines whatever their directions, 0 to π/2 rad."""
-    return math.atan2(sine(w, u), abs(float(w @ u)))
+    cosine = abs(float(w @ u))
+    return math.atan2(sine(w, u), cosine)
 
 
 def distance_to_line(gap: Array, w: Array) -> float:
     """Distance (m) of a point from a line along w, `gap` from a point of the line."""
-    return float(np.linalg.norm(gap - w * (w @ gap)))
+    across = gap - w * (w @ gap)
+    return float(np.linalg.norm(across))
 
 
 def normal_length(w: Array, u: Array, gap: Array) -> float:
     """Length (m) of the common normal of lines along w and u that are not parallel, `gap` between
     them.
     """
-    return abs(float(gap @ cross(w, u))) / sine(w, u)
+    volume = abs(float(gap @ cross(w, u)))
+    return volume / sine(w, u)
 
 
 def nearest_point(screws: Array, start: Array, rcond: float) -> Array:
     """The point (3,) nearest to axes; where they leave it free, within `rcond`, nearest to a start."""
     w = screws[:, :3]
-    across = np.eye(3) - w[:, :, None] * w[:, None]
+    along = w[:, :, None] * w[:, None]
+    across = np.eye(3) - along
     right = applied(across, place(screws) - start)
     system = across.reshape(-1, 3)
-    return start + np.linalg.lstsq(system, right.ravel(), rcond=rcond)[0]
+    moved, *_ = np.linalg.lstsq(system, right.ravel(), rcond=rcond)
+    return start + moved
 
 
 def wrapped(x: Array, turns: Marks) -> Array:
@@ -99,7 +105,8 @@ def uncoupled_at_zero(chain: Chain) -> Chain:
     C = chain.coupling
     if chain.nontrivial_coupling is None and not chain.offset.any():
         return chain
-    limits = np.tile([-np.inf, np.inf], (len(C), 1))
+    unlimited = [-np.inf, np.inf]
+    limits = np.tile(unlimited, (len(C), 1))
     for i, row in enumerate(C):
         leaders = np.flatnonzero(row)
         if len(leaders) == 1:

@@ -49,7 +49,8 @@ class _Linear(NamedTuple):
 
     def misfit(self, A: Array, dA: Array) -> tuple[Array, Array]:
         """Residuals (m, k) of axes A (m, 6), and derivatives (m, k, r) from those of A."""
-        return A @ self.C.T - self.goal, self.C @ dA
+        residuals = A @ self.C.T - self.goal
+        return residuals, self.C @ dA
 
 
 class _Sphere(NamedTuple):
@@ -65,7 +66,8 @@ class _Sphere(NamedTuple):
         """Residuals (m, 1) of axes A (m, 6), and derivatives (m, 1, r) from those of A."""
         apart = A[:, 3:] - self.centre
         distances = (apart * apart).sum(1, keepdims=True)
-        return distances - self.square, 2.0 * apart[:, None] @ dA[:, 3:]
+        derivatives = 2.0 * apart[:, None] @ dA[:, 3:]
+        return distances - self.square, derivatives
 
 
 _Relation = _Linear | _Sphere
@@ -87,22 +89,29 @@ def held_positions(
     distance of parallel ones. A slide leaves directions as they are, so that those of the axes
     beyond it count as well.
     """
-    size = max(float(np.linalg.norm(lines(long).places)), tol.position)
+    places = lines(long).places
+    size = max(float(np.linalg.norm(places)), tol.position)
     # In units of the arm's own size, so that lengths and angles count alike.
-    ours, theirs = (lines(rescaled(chain, 1.0 / size)) for chain in (long, short))
+    unit = 1.0 / size
+    ours = lines(rescaled(long, unit))
+    theirs = lines(rescaled(short, unit))
     front = _side(ours, reversed(range(run[0])), gone)
-    behind = _side(ours, range(run[-1] + 1, len(ours.kinds)), gone)
+    beyond = range(run[-1] + 1, len(ours.kinds))
+    behind = _side(ours, beyond, gone)
     both = front + behind
     wanted = {j: theirs.axes[index_without(gone, j)] for j in both}
     tried: list[tuple[float, Array]] = []
     for signs in product((1.0, -1.0), repeat=len(both) - 1):
-        signed = {j: sign * wanted[j] for j, sign in zip(both, (1.0, *signs), strict=True)}
+        ways = zip(both, (1.0, *signs), strict=True)
+        signed = {j: way * wanted[j] for j, way in ways}
         relations = _relations(ours, front, behind, signed)
         x = _starts(ours, run)
         for _ in range(STEPS):
-            x = x + _step(*_misfit(ours, run, behind, relations, x))
+            r, J = _misfit(ours, run, behind, relations, x)
+            x = x + _step(r, J)
         r, _ = _misfit(ours, run, behind, relations, x)
-        tried += zip(abs(r).max(1), x, strict=True)
+        worst = abs(r).max(1)
+        tried += zip(worst, x, strict=True)
     joints = list(run)
     units = np.where(ours.slides[joints], size, 1.0)
     most = 10.0 * (tol.rotation + tol.position / size)
@@ -159,11 +168,13 @@ def _relations(
     for f, (place, g) in product(front, enumerate(behind)):
         part = ours.part(g)
         way = wanted[f][ours.part(f)]
-        relations.append(_angle(ours.ways[f], way, wanted[g][part], place, part))
+        other = wanted[g][part]
+        relations.append(_angle(ours.ways[f], way, other, place, part))
     if _placed(ours, front) and _placed(ours, behind):
         f = front[-1]
         g = behind[-1]
-        relations.append(_apart(ours.axes[f], wanted[f], wanted[g], len(behind) - 1))
+        last = len(behind) - 1
+        relations.append(_apart(ours.axes[f], wanted[f], wanted[g], last))
     return relations
 
 
@@ -172,7 +183,8 @@ def _placed(ours: Lines, side: list[int]) -> bool:
     slide along it.
     """
     *slides, last = side
-    along = [sine(ours.ways[j], ours.ways[last]) <= PARALLEL for j in slides]
+    way = ours.ways[last]
+    along = [sine(ours.ways[j], way) <= PARALLEL for j in slides]
     return not ours.slides[last] and all(along)
 
 
@@ -194,7 +206,8 @@ def _apart(axis: Array, first: Array, second: Array, place: int) -> _Relation:
     u = second[:3]
     if sine(w, u) > PARALLEL:
         moment = w @ second[3:] + first[3:] @ u
-        return _Linear(place, np.roll(axis, 3)[None], np.array([moment]))
+        row = np.roll(axis, 3)
+        return _Linear(place, row[None], np.array([moment]))
     sign = float(np.sign(w @ u))
     gap = second[3:] - sign * first[3:]
     return _Sphere(place, sign * axis[3:], float(gap @ gap))
@@ -212,12 +225,15 @@ def _misfit(
     """
     T = np.eye(4)[None]
     screws = []
-    for S, own in zip(ours.screws[list(run)], x.T, strict=True):
+    moving = ours.screws[list(run)]
+    for S, own in zip(moving, x.T, strict=True):
         screws.append(se3.adjoint(T) @ S)
         T = T @ se3.exp(S * own[:, None])
-    axes = ours.axes[behind] @ se3.adjoint(T).swapaxes(1, 2)
+    Ad = se3.adjoint(T)
+    axes = ours.axes[behind] @ Ad.swapaxes(1, 2)
     # d Ad(e^{S x}) A = ad(S) A dx.
-    changes = np.stack([axes @ se3.ad(S).swapaxes(1, 2) for S in screws], axis=-1)
+    by_joint = [axes @ se3.ad(S).swapaxes(1, 2) for S in screws]
+    changes = np.stack(by_joint, axis=-1)
     r = []
     J = []
     for relation in relations:
@@ -235,4 +251,5 @@ def _step(r: Array, J: Array) -> Array:
     size = np.trace(normal, axis1=1, axis2=2)
     damping = (r * r).sum(1) + 1e-14 * size + 1e-30
     damped = normal + damping[:, None, None] * np.eye(J.shape[2])
-    return np.linalg.solve(damped, transposed @ -r[..., None])[..., 0]
+    downhill = transposed @ -r[..., None]
+    return np.linalg.solve(damped, downhill)[..., 0]

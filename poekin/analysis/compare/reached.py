@@ -30,7 +30,8 @@ def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Hypothesis) -> bool:
     by at most 2 tol_rad; a joint that slides by x moves it by at most tol_rad x, and pitches that
     are alike differ by at most tol_m a turn. Over the joints these add up.
     """
-    theirs = reading.directions * (b.random(0, SAMPLES) - reading.zeros)
+    own = b.random(0, SAMPLES)
+    theirs = reading.directions * (own - reading.zeros)
     x = np.concatenate([a.random(0, SAMPLES), theirs])
     ours = a.fk(x)
     moved, turned = pose_differences(ours, reading.poses(b, x))
@@ -43,7 +44,9 @@ def pose_differences(ours: Array, theirs: Array) -> tuple[Array, Array]:
     back = ours[:, :3, :3].swapaxes(1, 2)
     turns = so3.log(back @ theirs[:, :3, :3])
     gaps = ours[:, :3, 3] - theirs[:, :3, 3]
-    return np.linalg.norm(gaps, axis=1), np.linalg.norm(turns, axis=1)
+    moved = np.linalg.norm(gaps, axis=1)
+    turned = np.linalg.norm(turns, axis=1)
+    return moved, turned
 
 
 def _bounds(pair: Sides, a: Chain, b: Chain) -> Tolerances:
@@ -52,15 +55,20 @@ def _bounds(pair: Sides, a: Chain, b: Chain) -> Tolerances:
     tol = pair.tol
     # The lengths from place to place are those of the links; a slide has no place, and lengthens
     # what is behind it.
-    places = (pair.a.places + pair.a.centre)[~slides]
-    steps = np.diff([*places, a.home[:3, 3]], axis=0)
+    placed = pair.a.places + pair.a.centre
+    places = placed[~slides]
+    end = a.home[:3, 3]
+    steps = np.diff([*places, end], axis=0)
     lengths = np.linalg.norm(steps, axis=1)
     ranges = (np.abs(sampling_range(chain)) for chain in (a, b))
-    most = np.max([size.max(0) for size in ranges], axis=0)
-    travel = most * np.where(slides, 1.0, np.abs(a.pitches))
+    largest = [size.max(0) for size in ranges]
+    most = np.max(largest, axis=0)
+    slides_by = np.where(slides, 1.0, np.abs(a.pitches))
+    travel = most * slides_by
     slid = travel.sum()
     behind = np.cumsum(lengths[::-1]) + slid
-    moved = 2.0 * (len(places) * tol.position + tol.rotation * behind.sum())
+    apart = len(places) * tol.position
+    moved = 2.0 * (apart + tol.rotation * behind.sum())
     moved += tol.rotation * slid
     turned_by = float(most[a.pitches != 0].sum())
     moved += tol.position * turned_by / (2.0 * np.pi)

@@ -122,7 +122,8 @@ def by_cross(links: Links) -> JacobianThenPose:
     *joints, (r, s) = zip(links.rotates, links.slides, strict=True)
     set_column(J, -1, (0.0, 0.0, r, 0.0, 0.0, s))
     T = pose(links.poses[-1])
-    for i, (r, s) in reversed(list(enumerate(joints))):
+    from_last = reversed(list(enumerate(joints)))
+    for i, (r, s) in from_last:
         set_column(J, i, recursive.z_column(T, r, s))
         if i:
             T = product_by_cross(links.poses[i], T)
@@ -134,5 +135,7 @@ def product_by_cross(a: Row, b: Row) -> Row:
     X = rotate(a, b[0:9:3])
     Y = rotate(a, b[1:9:3])
     rows = zip(X, Y, cross(X, Y), strict=True)
-    p = add(rotate(a, translation(b)), translation(a))
-    return make_pose([x for row in rows for x in row], p)
+    turned = rotate(a, translation(b))
+    p = add(turned, translation(a))
+    R = [x for row in rows for x in row]
+    return make_pose(R, p)

@@ -74,12 +74,15 @@ def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bo
     offsets = chain.offset.tolist()
     coordinates = [graph.input(-k) for k, _ in enumerate(chain.q_names, 1)]
     poses = []
-    for kind, r, s, row, c in zip(chain.kinds, *structure(chain), C, offsets, strict=True):
+    joints = zip(chain.kinds, *structure(chain), C, offsets, strict=True)
+    for kind, r, s, row, c in joints:
         x = c
         for q, factor in zip(coordinates, row, strict=True):
             x = x + graph.scaled(q, factor)
-        sine, cosine = angles.sine_cosine([r * factor for factor in row], r * c, 0)
-        poses.append(form(Motion(kind, x, sine, cosine, s * x), rng))
+        rates = [r * factor for factor in row]
+        sine, cosine = angles.sine_cosine(rates, r * c, 0)
+        motion = Motion(kind, x, sine, cosine, s * x)
+        poses.append(form(motion, rng))
     J, T = _run(algorithm, chain, poses, with_pose)
     if chain.nontrivial_coupling is None:
         return _count(graph, angles, T, J)
@@ -109,8 +112,8 @@ def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
     d, a, alpha, theta = generic(rng, 4).tolist()
     turn = motion.sine, motion.cosine
     if motion.kind == "prismatic":
-        turn = math.sin(theta), math.cos(theta)
-    return dh.link(*turn, d + motion.shift, a, math.sin(alpha), math.cos(alpha))
+        turn = _sine_cosine(theta)
+    return dh.link(*turn, d + motion.shift, a, *_sine_cosine(alpha))
 
 
 def craig_link(motion: Motion, rng: np.random.Generator) -> Row:
@@ -119,8 +122,8 @@ def craig_link(motion: Motion, rng: np.random.Generator) -> Row:
     fixed = 0.0
     if motion.kind == "prismatic":
         fixed = theta
-    link = dh.link(0.0, 1.0, 0.0, a, math.sin(alpha), math.cos(alpha))
-    behind = turned_about_z(link, math.sin(fixed), math.cos(fixed), d)
+    link = dh.link(0.0, 1.0, 0.0, a, *_sine_cosine(alpha))
+    behind = turned_about_z(link, *_sine_cosine(fixed), d)
     return turned_about_z(behind, motion.sine, motion.cosine, motion.shift)
 
 
@@ -133,7 +136,7 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
     rng = generator()
     first = (0.0, 1.0, 0.0, 0.0)
     between = generic(rng, n - 1, 2).tolist()
-    links = [(math.sin(alpha), math.cos(alpha), a, 0.0) for a, alpha in between]
+    links = [(*_sine_cosine(alpha), a, 0.0) for a, alpha in between]
     d_offsets = generic(rng, n).tolist()
     base = IDENTITY
     end = IDENTITY
@@ -170,14 +173,16 @@ def generic(rng: np.random.Generator, *shape: int) -> Array:
 def generic_pose(rng: np.random.Generator) -> tuple[float, ...]:
     """A pose without any structure."""
     T = se3.exp(generic(rng, 6))
-    return tuple(np.append(T[:3, :3], T[:3, 3]).tolist())
+    twelve = np.append(T[:3, :3], T[:3, 3])
+    return tuple(twelve.tolist())
 
 
 def generic_screw(kind: str, rng: np.random.Generator) -> Row:
     """A joint's screw without any structure but its kind's: a prismatic joint's omega is zero."""
     axis, point = generic(rng, 2, 3)
     if kind == "prismatic":
-        return (0, 0, 0, *screw.prismatic(axis)[3:].tolist())
+        way = screw.prismatic(axis)[3:]
+        return (0, 0, 0, *way.tolist())
     if kind == "helical":
         return tuple(screw.helical(axis, point, 0.1).tolist())
     return tuple(screw.revolute(axis, point).tolist())
@@ -185,11 +190,20 @@ def generic_screw(kind: str, rng: np.random.Generator) -> Row:
 
 def structure(chain: Chain) -> tuple[Sequence[float], Sequence[float]]:
     """r and s of the joints, 0 and 1 as integers."""
-    rotates, slides = (
-        [int(x) if x in (0.0, 1.0) else x for x in row.tolist()]
-        for row in (chain.local.rotates, chain.local.slides)
-    )
+    rotates = list(map(_plain, chain.local.rotates.tolist()))
+    slides = list(map(_plain, chain.local.slides.tolist()))
     return rotates, slides
+
+
+def _plain(x: float) -> float:
+    """A number, 0 and 1 as integers."""
+    if x in (0.0, 1.0):
+        return int(x)
+    return x
+
+
+def _sine_cosine(angle: float) -> tuple[float, float]:
+    return math.sin(angle), math.cos(angle)
 
 
 def _run(
@@ -201,7 +215,8 @@ def _run(
     """J and the pose, which is empty where it is not asked for."""
     rng = generator()
     screws = [generic_screw(kind, rng) for kind in chain.kinds]
-    links = Links(len(poses), *structure(chain), screws, poses, generic_pose(rng))
+    tool = generic_pose(rng)
+    links = Links(len(poses), *structure(chain), screws, poses, tool)
     J, finish = algorithm(links)
     if not with_pose:
         return J, ()
@@ -209,4 +224,5 @@ def _run(
 
 
 def _count(graph: Graph, angles: Angles, T: Row, J: Rows) -> Count:
-    return program(graph, angles, [*T, *(x for row in J for x in row)]).count
+    entries = (x for row in J for x in row)
+    return program(graph, angles, [*T, *entries]).count

@@ -43,7 +43,8 @@ def scaled(X: Array, axis: int, part: Part, length: float) -> Array:
     if part == "pose":
         weights = np.repeat([1.0, 1.0 / length], 3)
         return X * weights.reshape(6, *[1] * behind)
-    return X[(..., ROWS[part], *[slice(None)] * behind)]
+    all_behind = [slice(None)] * behind
+    return X[(..., ROWS[part], *all_behind)]
 
 
 def svd(J: Array) -> tuple[Array, Array, Array]:
@@ -53,14 +54,17 @@ def svd(J: Array) -> tuple[Array, Array, Array]:
     """
     finite = np.isfinite(J).all(axis=(-2, -1), keepdims=True)
     bad = np.asarray(~finite)
-    U, s, V = np.linalg.svd(np.where(bad, 0.0, J), full_matrices=False)
-    return U, np.where(bad[..., 0], np.nan, s), V
+    numbers = np.where(bad, 0.0, J)
+    U, s, V = np.linalg.svd(numbers, full_matrices=False)
+    s = np.where(bad[..., 0], np.nan, s)
+    return U, s, V
 
 
 def random_configurations(chain: Chain) -> Array:
     """Configurations (SAMPLES, m), at one of which a Jacobian has its largest rank."""
     rng = np.random.default_rng(0)
-    return half_range(chain) * rng.uniform(-1.0, 1.0, (SAMPLES, chain.dof))
+    shares = rng.uniform(-1.0, 1.0, (SAMPLES, chain.dof))
+    return half_range(chain) * shares
 
 
 def largest_rank(J: Array, reach: float, part: Part, tolerance: float = TOLERANCE) -> int:
@@ -69,11 +73,13 @@ def largest_rank(J: Array, reach: float, part: Part, tolerance: float = TOLERANC
     Lengths are in units of the arm's own size, so that it does not matter.
     """
     longest = float(np.abs(J[:, 3:]).max())
-    J = scaled(J, -2, "pose", max(longest, 1e-6 * reach))
+    length = max(longest, 1e-6 * reach)
+    J = scaled(J, -2, "pose", length)
     _, s, _ = svd(J[:, ROWS[part]])
     # Below that is rounding: an arm that never moves its tool in this part.
     least = np.maximum(tolerance * s[:, :1], 1e-9)
-    return int((s > least).sum(axis=1).max())
+    ranks = (s > least).sum(axis=1)
+    return int(ranks.max())
 
 
 @lru_cache(maxsize=64)
@@ -81,5 +87,6 @@ def generic_rank(chain: Chain, part: Part, tolerance: float = TOLERANCE) -> int:
     """The largest rank of a part of the Jacobian over all configurations, which it has at almost
     every one of them, in whatever units the coordinates are.
     """
-    J = chain.jacobian(random_configurations(chain), "hybrid") / joint_ratios(chain)
+    q = random_configurations(chain)
+    J = chain.jacobian(q, "hybrid") / joint_ratios(chain)
     return largest_rank(J, chain.reach, part, tolerance)

@@ -33,9 +33,24 @@ from ..text.numbers import real
 from ..text.toml_text import Keys
 from .table import COLUMNS, KINDS, Row, Table, check_table
 
-TOP: tuple[str, ...] = ("convention", "name", "source", "base", "tool", "joint")
-FIELDS: tuple[str, ...] = ("name", "kind", *COLUMNS, "flip", "limits")
-CSV_COLUMNS: tuple[str, ...] = ("convention", *FIELDS[:-1], "lower", "upper", "pose")
+TOP: tuple[str, ...] = (
+    "convention",
+    "name",
+    "source",
+    "base",
+    "tool",
+    "joint",
+)
+_CELLS: tuple[str, ...] = ("name", "kind", *COLUMNS, "flip")
+FIELDS: tuple[str, ...] = (*_CELLS, "limits")
+CSV_COLUMNS: tuple[str, ...] = (
+    "convention",
+    *_CELLS,
+    "lower",
+    "upper",
+    "pose",
+)
+_TRUTHS = {"true": True, "false": False}
 
 
 def read(path: FilePath) -> Table:
@@ -72,13 +87,14 @@ def read(path: FilePath) -> Table:
     >>> pk.dh.read("arm.csv").d.tolist()
     [0.1625, 0.0, 0.0, 0.1333, 0.0997, 0.0996]
     """
-    return read_text(xml.read_text(path)[0], os.fsdecode(path))
+    text, _ = xml.read_text(path)
+    return read_text(text, os.fsdecode(path))
 
 
 def read_text(text: str, name: str) -> Table:
     """Table in the text of a file, TOML or CSV as its name ends. Raises as `read`."""
     stem, ending = os.path.splitext(os.path.basename(name))
-    reader = _reader(name, ending, {".toml": _from_toml, ".csv": _from_csv})
+    reader = _reader(name, ending, _READERS)
     return reader(text, escape_unprintable(name, 400), stem)
 
 
@@ -115,7 +131,8 @@ def write(table: Table, path: FilePath) -> None:
     if not isinstance(path, (str, bytes, os.PathLike)):
         raise InputError(f"expected the path of a file, got {safe_repr(path)}")
     name = os.fsdecode(path)
-    text = _reader(name, os.path.splitext(name)[1], _WRITERS)(table)
+    _, ending = os.path.splitext(name)
+    text = _reader(name, ending, _WRITERS)(table)
     write_whole(path, text.encode())
 
 
@@ -133,11 +150,18 @@ def _reader(name: str, ending: str, known: dict[str, Callable]) -> Callable:
 
 
 def _from_toml(text: str, place: str, stem: str) -> Table:
-    keys = Keys(toml_text.parse(text, place), place, TOP)
-    rows = [_row(joint) for joint in keys.tables("joint", FIELDS)]
+    data = toml_text.parse(text, place)
+    keys = Keys(data, place, TOP)
+    joints = keys.tables("joint", FIELDS)
     given = keys.data
-    poses = (given.get("base"), given.get("tool"))
-    return _table(place, given.get("convention"), rows, *poses, given.get("name", stem))
+    return _table(
+        place,
+        given.get("convention"),
+        [_row(joint) for joint in joints],
+        given.get("base"),
+        given.get("tool"),
+        given.get("name", stem),
+    )
 
 
 def _row(keys: Keys) -> Row:
@@ -150,23 +174,33 @@ def _row(keys: Keys) -> Row:
     if "name" in keys.data:
         optional["name"] = keys.text("name")
     if "limits" in keys.data:
-        lower, upper = keys.array("limits", (2,), finite=False).tolist()
+        limits = keys.array("limits", (2,), finite=False)
+        lower, upper = limits.tolist()
         if not lower <= upper:
             raise keys.fault("limits", f"expected lower <= upper, got {lower} and {upper}")
         optional["limits"] = (lower, upper)
-    return Row(**{column: keys.number(column) for column in COLUMNS}, **optional)
+    numbers = {column: keys.number(column) for column in COLUMNS}
+    return Row(**numbers, **optional)
 
 
 def _from_csv(text: str, place: str, stem: str) -> Table:
     reader = csv.DictReader(io.StringIO(text), strict=True)
     try:
-        found = _CsvTable(place, list(reader.fieldnames or ()))
+        header = list(reader.fieldnames or ())
+        found = _CsvTable(place, header)
         for record in reader:
             found.take(record, f"{place}:{reader.line_num}")
     except csv.Error as fault:
         raise ModelError(f"{place}:{max(reader.line_num, 1)}: {fault}") from fault
     poses = found.poses
-    return _table(place, found.convention, found.rows, poses.get("base"), poses.get("tool"), stem)
+    return _table(
+        place,
+        found.convention,
+        found.rows,
+        poses.get("base"),
+        poses.get("tool"),
+        stem,
+    )
 
 
 class _CsvTable:
@@ -201,8 +235,9 @@ class _CsvTable:
             return
         if kind in self.poses:
             raise ModelError(f"{line}: a second row of the kind {kind}, expected one at most")
-        cells = [_cell(word) for word in record.get("pose", "").split()]
-        rows = Keys({"pose": cells}, line).array("pose", (12,)).reshape(3, 4)
+        words = record.get("pose", "").split()
+        keys = Keys({"pose": list(map(_cell, words))}, line)
+        rows = keys.array("pose", (12,)).reshape(3, 4)
         self.poses[kind] = np.vstack([rows, [0, 0, 0, 1]])
 
     def _take_convention(self, convention: str, line: str) -> None:
@@ -214,11 +249,14 @@ class _CsvTable:
 
 def _as_keys(record: dict[str, str], line: str) -> Keys:
     """Line of CSV as a table in TOML has it; an empty cell stands for the default."""
-    data: dict[str, Any] = {key: record[key] for key in ("kind", "name") if record.get(key)}
+    filled = (key for key in ("kind", "name") if record.get(key))
+    data: dict[str, Any] = {key: record[key] for key in filled}
     data |= {column: _cell(record[column]) for column in COLUMNS}
-    data["limits"] = [_cell(record.get("lower") or "-inf"), _cell(record.get("upper") or "inf")]
+    lower = record.get("lower") or "-inf"
+    upper = record.get("upper") or "inf"
+    data["limits"] = [_cell(lower), _cell(upper)]
     if flip := record.get("flip"):
-        data["flip"] = {"true": True, "false": False}.get(flip.lower(), flip)
+        data["flip"] = _TRUTHS.get(flip.lower(), flip)
     return Keys(data, line)
 
 
@@ -230,7 +268,14 @@ def _cell(text: str) -> float | str:
     return number
 
 
-def _table(place: str, convention: Any, rows: list[Row], base: Any, tool: Any, name: str) -> Table:
+def _table(
+    place: str,
+    convention: Any,
+    rows: list[Row],
+    base: Any,
+    tool: Any,
+    name: str,
+) -> Table:
     try:
         return Table(convention, rows, base=base, tool=tool, name=name)
     except PoekinError as fault:
@@ -244,11 +289,15 @@ def _placed(table: Table) -> dict[str, Array]:
 
 
 def _to_toml(table: Table) -> str:
-    data: dict[str, Any] = {"convention": table.convention, "name": table.name}
-    data |= {what: T.tolist() for what, T in _placed(table).items()}
+    data: dict[str, Any] = {
+        "convention": table.convention,
+        "name": table.name,
+    }
+    for what, T in _placed(table).items():
+        data[what] = T.tolist()
     joints = []
     for row in table.rows:
-        joint = {key: getattr(row, key) for key in ("name", "kind", *COLUMNS, "flip")}
+        joint = {key: getattr(row, key) for key in _CELLS}
         if row.limits != UNBOUNDED:
             joint["limits"] = list(row.limits)
         joints.append(joint)
@@ -261,15 +310,30 @@ def _to_csv(table: Table) -> str:
     writer: csv.DictWriter[str] = csv.DictWriter(out, CSV_COLUMNS, restval="", lineterminator="\n")
     writer.writeheader()
     for what, T in _placed(table).items():
-        pose = " ".join(map(repr, T[:3].ravel().tolist()))
-        writer.writerow({"convention": table.convention, "kind": what, "pose": pose})
+        numbers = T[:3].ravel().tolist()
+        writer.writerow(
+            {
+                "convention": table.convention,
+                "kind": what,
+                "pose": " ".join(map(repr, numbers)),
+            }
+        )
     for row in table.rows:
-        cells = {key: getattr(row, key) for key in ("name", "kind")}
-        cells |= {column: repr(getattr(row, column)) for column in COLUMNS}
+        numbers = {column: repr(getattr(row, column)) for column in COLUMNS}
         lower, upper = map(repr, row.limits)
-        cells |= {"flip": str(row.flip).lower(), "lower": lower, "upper": upper}
-        writer.writerow({"convention": table.convention, **cells})
+        writer.writerow(
+            {
+                "convention": table.convention,
+                "name": row.name,
+                "kind": row.kind,
+                **numbers,
+                "flip": str(row.flip).lower(),
+                "lower": lower,
+                "upper": upper,
+            }
+        )
     return out.getvalue()
 
 
+_READERS: dict[str, Callable] = {".toml": _from_toml, ".csv": _from_csv}
 _WRITERS: dict[str, Callable] = {".toml": _to_toml, ".csv": _to_csv}

@@ -26,7 +26,8 @@ def link_poses(table: Table) -> list[tuple[float, ...]]:
     normals = [(row.a, row.alpha) for row in rows]
     if table.convention == "modified" and rows:
         normals.append((0.0, 0.0))
-        links[0] = compose(links[0], _link(0.0, 0.0, *normals.pop(0)))
+        before_first = _link(0.0, 0.0, *normals.pop(0))
+        links[0] = compose(links[0], before_first)
     for row, (a, alpha) in zip(rows, normals, strict=True):
         links.append(_link(row.theta, row.d, a, alpha))
     links[-1] = compose(links[-1], _twelve(table.tool))
@@ -75,10 +76,11 @@ def to_chain(table: Table) -> Chain:
     rotates = (signs * (kinds == "revolute")).tolist()
     slides = (signs * (kinds == "prismatic")).tolist()
     A = np.zeros((len(table), 6))
-    home = _matrix(dh.screws(link_poses(table), rotates, slides, len(table), A))
+    K = link_poses(table)
+    M = dh.screws(K, rotates, slides, len(table), A)
     return Chain.from_space(
         A,
-        home,
+        _matrix(M),
         joint_names=table.names,
         limits=table.limits,
         pitches=np.zeros(len(table)),
@@ -86,11 +88,14 @@ def to_chain(table: Table) -> Chain:
 
 
 def _link(theta: float, d: float, a: float, alpha: float) -> tuple[float, ...]:
-    return dh.link(math.sin(theta), math.cos(theta), d, a, math.sin(alpha), math.cos(alpha))
+    turn = math.sin(theta), math.cos(theta)
+    twist = math.sin(alpha), math.cos(alpha)
+    return dh.link(*turn, d, a, *twist)
 
 
 def _twelve(T: Array) -> tuple[float, ...]:
-    return (*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist())
+    R = T[:3, :3].ravel()
+    return (*R.tolist(), *T[:3, 3].tolist())
 
 
 def to_robot(table: Table) -> Robot:
@@ -123,10 +128,12 @@ def to_robot(table: Table) -> Robot:
     ('base', 'link1', 'link2', 'link3', 'link4', 'link5', 'link6', 'tool')
     """
     check_table(table, "to_robot")
-    links = ["base", *(f"link{i + 1}" for i in range(len(table))), "tool"]
+    numbered = (f"link{i + 1}" for i in range(len(table)))
+    links = ["base", *numbered, "tool"]
     origins = list(map(_matrix, link_poses(table)))
     joints = []
-    for row, parent, child, origin in zip(table.rows, links, links[1:], origins, strict=False):
+    frames = zip(table.rows, links, links[1:], origins, strict=False)
+    for row, parent, child, origin in frames:
         axis = (0.0, 0.0, 1.0 - 2.0 * row.flip)
         joints.append(
             Joint(
@@ -145,4 +152,5 @@ def to_robot(table: Table) -> Robot:
 
 
 def _matrix(K: tuple[float, ...]) -> Array:
-    return se3.pose(np.reshape(K[:9], (3, 3)), K[9:])
+    R = np.reshape(K[:9], (3, 3))
+    return se3.pose(R, K[9:])

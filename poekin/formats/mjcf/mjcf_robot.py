@@ -40,9 +40,10 @@ class ModelReader:
         self.model = model
         self.gone = _below_mocap(model)
         named = [model.body(i).name for i in range(model.nbody)]
-        self.taken = {"link": set(named), "joint": {model.joint(j).name for j in range(model.njnt)}}
+        called = [model.joint(j).name for j in range(model.njnt)]
+        self.taken = {"link": set(named), "joint": set(called)}
         self.links = [given or self.free("link", f"body{i}") for i, given in enumerate(named)]
-        self.names = [model.joint(j).name or self._joint_name(j) for j in range(model.njnt)]
+        self.names = [given or self._joint_name(j) for j, given in enumerate(called)]
         self.warnings: list[str] = []
         self.found: list[Joint] = []
         self.order: list[str] = []
@@ -84,13 +85,9 @@ class ModelReader:
             site = model.site(s).name
             body = int(model.site_bodyid[s])
             if site and body not in self.gone:
-                link = self.free("link", f"{site}_site" if site in self.taken["link"] else site)
-                self.order.append(link)
-                joint = self.free("joint", f"{link}_fixed")
-                self.found.append(Joint(joint, "fixed", self.links[body], link, sites[s]))
-        balls = [
-            self.names[j] for j in range(model.njnt) if model.jnt_type[j] == BALL and self._here(j)
-        ]
+                self._site(site, self.links[body], sites[s])
+        here = filter(self._here, range(model.njnt))
+        balls = [self.names[j] for j in here if model.jnt_type[j] == BALL]
         if balls:
             self.warnings.append(
                 f"ball joints are floating ones here, which no chain can cross: {join_names(balls)}; Robot.fk takes the"
@@ -105,6 +102,20 @@ class ModelReader:
             f"{text}: {join_names(names)}" for text, names in left_out.items() if names
         ]
         return Robot(name, self.order, self.found, source), self.warnings
+
+    def _site(self, site: str, parent: str, T: np.ndarray) -> None:
+        """The link of a site, fixed to that of its body."""
+        wanted = site
+        if site in self.taken["link"]:
+            wanted = f"{site}_site"
+        link = self.free("link", wanted)
+        self.order.append(link)
+        self._fix(parent, link, T)
+
+    def _fix(self, parent: str, link: str, T: np.ndarray) -> None:
+        """The fixed joint from a link to another one."""
+        name = self.free("joint", f"{link}_fixed")
+        self.found.append(Joint(name, "fixed", parent, link, T))
 
     def _here(self, j: int) -> bool:
         return int(self.model.jnt_bodyid[j]) not in self.gone
@@ -132,7 +143,8 @@ class ModelReader:
             if model.jnt_type[j] == FREE_JOINT:  # its pose is in the world
                 T = np.eye(4)
             motion = self._motion(j, constants)
-            anchor = _anchor(KINDS[model.jnt_type[j]], model.jnt_axis[j], model.jnt_pos[j])
+            kind = KINDS[model.jnt_type[j]]
+            anchor = _anchor(kind, model.jnt_axis[j], model.jnt_pos[j])
             T = T @ _shift(anchor)
             if motion.at_zero is not None:
                 T = T @ motion.at_zero
@@ -157,7 +169,7 @@ class ModelReader:
             parent = child
             T = _shift(-anchor)
         if parent != link:
-            self.found.append(Joint(self.free("joint", f"{link}_fixed"), "fixed", parent, link, T))
+            self._fix(parent, link, T)
 
     def _motion(self, j: int, constants: dict[int, float]) -> _Motion:
         model = self.model
@@ -165,12 +177,14 @@ class ModelReader:
         axis = model.jnt_axis[j].tolist()
         ref = self._at_home(j)
         if j in constants:
-            return _Motion("fixed", axis, UNBOUNDED, _moved(kind, axis, constants[j] - ref))
+            held = _moved(kind, axis, constants[j] - ref)
+            return _Motion("fixed", axis, UNBOUNDED, held)
         if kind == "floating":
             return _Motion(kind, [1.0, 0.0, 0.0], UNBOUNDED, None)
         at_zero = _moved(kind, axis, -ref)
         if model.jnt_limited[j]:
-            return _Motion(kind, axis, tuple(model.jnt_range[j].tolist()), at_zero)
+            limits = tuple(model.jnt_range[j].tolist())
+            return _Motion(kind, axis, limits, at_zero)
         if kind == "revolute":
             kind = "continuous"
         return _Motion(kind, axis, UNBOUNDED, at_zero)
@@ -205,7 +219,8 @@ class ModelReader:
         while held := [y for y in mimics if masters[y] in constants]:
             for y in held:  # it follows what does not move
                 mimic = mimics.pop(y)
-                constants[y] = mimic.multiplier * constants[masters[y]] + mimic.offset
+                followed = constants[masters[y]]
+                constants[y] = mimic.multiplier * followed + mimic.offset
         self.warnings += [
             f"equalities are left out for joints {reason}: {join_names(names)}"
             for reason, names in refused.items()
@@ -247,7 +262,8 @@ def _ancestry(masters: dict[int, int], joint: int) -> set[int]:
 
 def _anchor(kind: str, axis: Array, anchor: Array) -> Array:
     """Origin of a joint's frame; the body's own where the joint moves it in the same way."""
-    if kind == "prismatic" or (kind == "revolute" and not np.cross(axis, anchor).any()):
+    on_axis = kind == "revolute" and not np.cross(axis, anchor).any()
+    if kind == "prismatic" or on_axis:
         return np.zeros(3)
     return anchor
 
@@ -263,5 +279,6 @@ def _moved(kind: str, axis: list[float], x: float) -> Array:
     still = (0.0, 0.0, 0.0)
     w, v = (axis, still) if kind == "revolute" else (still, axis)
     T = np.eye(4)
-    T.ravel()[TWELVE] = exponential.joint(w, v, x, math.sin(x), math.cos(x))
+    turn = math.sin(x), math.cos(x)
+    T.ravel()[TWELVE] = exponential.joint(w, v, x, *turn)
     return T

@@ -99,15 +99,18 @@ def make_robot(robot: Any) -> Robot:
     tool = _pose(getattr(robot, "tool", None), "tool")
     for link in robot.links:
         tree.add_link(link)
-    joints = [joint for _, joint in sorted(tree.moving, key=lambda pair: pair[0])] + tree.fixed
+    in_order = sorted(tree.moving, key=lambda pair: pair[0])
+    joints = [joint for _, joint in in_order] + tree.fixed
     if not np.array_equal(tool, np.eye(4)):
         parents = {joint.parent for joint in joints}
-        for end in sorted(set(tree.names.values()) - parents, key=tree.links.index):
+        ends = set(tree.names.values()) - parents
+        for end in sorted(ends, key=tree.links.index):
             link = free_name(f"{end}_tool", tree.taken)
             tree.links.append(link)
             name = free_name(f"{end}_tool_joint", tree.used)
             joints.append(Joint(name, "fixed", end, link, tool))
-    return Robot(str(getattr(robot, "name", "") or "robot"), tree.links, joints)
+    called = str(getattr(robot, "name", "") or "robot")
+    return Robot(called, tree.links, joints)
 
 
 class _Tree:
@@ -116,7 +119,8 @@ class _Tree:
     def __init__(self, robot: Any) -> None:
         self.taken: set[str] = set()  # names of links
         self.used: set[str] = set()  # names of joints
-        self.root = free_name("base", {str(link.name) for link in robot.links})
+        given = {str(link.name) for link in robot.links}
+        self.root = free_name("base", given)
         self.names = {
             id(link): free_name(str(link.name) or "link", self.taken) for link in robot.links
         }
@@ -178,7 +182,8 @@ def _steps(items: list[Any], what: str) -> tuple[list[Step], Array]:
         if axis not in _AXES:
             raise InputError(f"{where}: expected one of {', '.join(_AXES)}, got {safe_repr(axis)}")
         screw = np.eye(6)[_AXES.index(axis)]
-        offset = float(shaped(getattr(et, "offset", 0.0), (), f"{where}: offset"))
+        given = getattr(et, "offset", 0.0)
+        offset = float(shaped(given, (), f"{where}: offset"))
         if offset:
             T = T @ se3.exp(offset * screw)
         if getattr(et, "isflip", False):
@@ -187,7 +192,8 @@ def _steps(items: list[Any], what: str) -> tuple[list[Step], Array]:
         if jindex is None:
             jindex = len(steps)
         limits = _limits(getattr(et, "qlim", None))
-        steps.append(Step(T, _KINDS[axis[0]], screw, int(jindex), limits))
+        kind = _KINDS[axis[0]]
+        steps.append(Step(T, kind, screw, int(jindex), limits))
         T = np.eye(4)
     return steps, T
 
@@ -202,7 +208,9 @@ def _limits(qlim: Any) -> Interval:
 def _shared(steps: list[Step], coordinate: int) -> Interval:
     """Intersection of the limits of the joints that move together."""
     limits = [step.limits for step in steps if step.coordinate == coordinate]
-    return max(lower for lower, _ in limits), min(upper for _, upper in limits)
+    highest = max(lower for lower, _ in limits)
+    lowest = min(upper for _, upper in limits)
+    return highest, lowest
 
 
 def _pose(T: Any, what: str) -> Array:

@@ -55,10 +55,12 @@ def is_log(
     if not _largest(E[:3, :3] - given[:3, :3]) < 0.5:
         return False
     if len(X) == 4:
-        scale = 1 + max(_largest(given[:3, 3]), _largest(truth[3:]))
+        length = max(_largest(given[:3, 3]), _largest(truth[3:]))
+        scale = 1 + length
         if not _largest(E[:3, 3] - given[:3, 3]) < AGREE * scale:
             return False
-    return bool(_mp.norm([_mp.mpf(w) for w in truth[:3]]) <= _mp.pi + AGREE)
+    angle = _mp.norm([_mp.mpf(w) for w in truth[:3]])
+    return bool(angle <= _mp.pi + AGREE)
 
 
 def of_adjoint(
@@ -106,7 +108,8 @@ def of_pose(
     x: Any,
 ) -> bool:
     """Whether `exact.forward` is the product of mpmath's exponentials."""
-    return near(product(screws, home, x), exact.forward(screws, home, x))
+    truth = exact.forward(screws, home, x)
+    return near(product(screws, home, x), truth)
 
 
 def of_velocities(
@@ -126,7 +129,9 @@ def of_velocities(
         ahead = product(screws, home, _shifted(x, k, step))
         behind = product(screws, home, _shifted(x, k, -step))
         X = (ahead - behind) / (2 * step) * back
-        if not _largest(X - _hat(truth[:, k])) < 1e-50 * (1 + _largest(truth[:, k])) ** 2:
+        twist = truth[:, k]
+        scale = 1 + _largest(twist)
+        if not _largest(X - _hat(twist)) < 1e-50 * scale**2:
             return False
     return True
 
@@ -168,7 +173,8 @@ def near(
     entry.
     """
     other = _matrix(truth)
-    return bool(_largest(X - other) < AGREE * (1 + _largest(other)))
+    scale = 1 + _largest(other)
+    return bool(_largest(X - other) < AGREE * scale)
 
 
 def _expm(xi: Any) -> Any:
@@ -177,7 +183,11 @@ def _expm(xi: Any) -> Any:
 
 def _hat(xi: Any) -> Any:
     x, y, z = (_mp.mpf(c) for c in list(xi)[:3])
-    rows = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
+    rows = [
+        [0, -z, y],
+        [z, 0, -x],
+        [-y, x, 0],
+    ]
     if len(xi) == 6:
         for row, v in zip(rows, list(xi)[3:], strict=True):
             row.append(_mp.mpf(v))
@@ -195,7 +205,8 @@ def _ad(xi: Any) -> Any:
 
 
 def _matrix(X: np.ndarray) -> Any:
-    return _mp.matrix([[_mp.mpf(x) for x in row] for row in X.tolist()])
+    rows = [[_mp.mpf(x) for x in row] for row in X.tolist()]
+    return _mp.matrix(rows)
 
 
 def _largest(M: Any) -> Any:

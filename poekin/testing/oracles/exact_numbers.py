@@ -22,9 +22,16 @@ mp: Any = mpmath.mp.clone()
 """The oracle's own mpmath context."""
 mp.dps = DIGITS
 
+
+def _mpf(x: Any) -> Any:
+    if isinstance(x, mp.mpf):
+        return x
+    return mp.mpf(x)
+
+
 # Below, array times number in this order: an mpmath number asked first writes the whole array into
 # an error of its own.
-_to_mpf = np.frompyfunc(lambda x: x if isinstance(x, mp.mpf) else mp.mpf(x), 1, 1)
+_to_mpf = np.frompyfunc(_mpf, 1, 1)
 _to_float = np.frompyfunc(float, 1, 1)
 
 
@@ -49,7 +56,8 @@ def exactly(x: ArrayLike) -> np.ndarray:
     try:
         # A NaN among them is no reason to warn.
         with np.errstate(invalid="ignore"):
-            return np.asarray(_to_mpf(np.asarray(x)), dtype=object)
+            numbers = _to_mpf(np.asarray(x))
+            return np.asarray(numbers, dtype=object)
     except (TypeError, ValueError) as fault:
         raise InputError(f"expected numbers, got {safe_repr(x)}") from fault
 
@@ -84,7 +92,8 @@ def norm(x: np.ndarray) -> Any:
     norm : mpf
         √Σ x² over all entries.
     """
-    return mp.sqrt(mp.fsum(np.ravel(x), squared=True))
+    squares = mp.fsum(np.ravel(x), squared=True)
+    return mp.sqrt(squares)
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -138,19 +147,30 @@ def determinant(X: np.ndarray) -> Any:
 def inverse3(X: np.ndarray) -> np.ndarray:
     """Inverse of a 3×3 matrix, by its cofactors."""
     a, b, c = X
-    cofactors = np.array([cross(b, c), cross(c, a), cross(a, b)], dtype=object)
+    rows = [
+        cross(b, c),
+        cross(c, a),
+        cross(a, b),
+    ]
+    cofactors = np.array(rows, dtype=object)
     return cofactors.T / determinant(X)
 
 
 def skew_part(X: np.ndarray) -> np.ndarray:
     """Vector of the skew part of a matrix, of its upper left 3×3 block."""
     K = X[:3, :3] - X[:3, :3].T
-    return np.array([K[2, 1], K[0, 2], K[1, 0]], dtype=object) / 2
+    w = [
+        K[2, 1],
+        K[0, 2],
+        K[1, 0],
+    ]
+    return np.array(w, dtype=object) / 2
 
 
 def lower_blocks(P: np.ndarray, Q: np.ndarray) -> np.ndarray:
     """Matrix [P 0; Q P] (6, 6)."""
-    return np.block([[P, exactly(np.zeros((3, 3)))], [Q, P]])
+    zero = exactly(np.zeros((3, 3)))
+    return np.block([[P, zero], [Q, P]])
 
 
 def homogeneous(
@@ -196,7 +216,12 @@ def hat(w: ArrayLike) -> np.ndarray:
         return homogeneous(hat(x[:3]), x[3:], last=0)
     zero = mp.zero
     a, b, c = x
-    return np.array([[zero, -c, b], [c, zero, -a], [-b, a, zero]], dtype=object)
+    rows = [
+        [zero, -c, b],
+        [c, zero, -a],
+        [-b, a, zero],
+    ]
+    return np.array(rows, dtype=object)
 
 
 def coefficients(s: Any) -> tuple[Any, Any, Any]:
@@ -204,14 +229,16 @@ def coefficients(s: Any) -> tuple[Any, Any, Any]:
     if s >= 1:
         t = mp.sqrt(s)
         sine = mp.sin(t)
-        return sine / t, (1 - mp.cos(t)) / s, (t - sine) / (s * t)
+        versine = 1 - mp.cos(t)
+        return sine / t, versine / s, (t - sine) / (s * t)
     sums = []
     for first in (1, 2, 3):
         term = mp.one / mp.factorial(first)
         total = term
         k = first
         while abs(term) > least():
-            term = -term * s / ((k + 1) * (k + 2))
+            divisor = (k + 1) * (k + 2)
+            term = -term * s / divisor
             total = total + term
             k = k + 2
         sums.append(total)

@@ -95,8 +95,10 @@ def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> PairPoses:
 def rigid_poses(pair: Sides) -> PairPoses:
     """Poses of all pairs of joints of the same kinds; first, of (-1, -1), the base as it is."""
     alike = np.flatnonzero(pair.alike).tolist()
-    as_it_is = PairPoses(np.array([[-1, -1]]), pair.as_they_stand)
-    return as_it_is.joined(pair_poses(pair, combinations(alike, 2)))
+    of_none = np.array([[-1, -1]])
+    as_it_is = PairPoses(of_none, pair.as_they_stand)
+    of_two = pair_poses(pair, combinations(alike, 2))
+    return as_it_is.joined(of_two)
 
 
 def turns(screw: Array, axis: Array, target: Array) -> Array:
@@ -115,7 +117,8 @@ def turns(screw: Array, axis: Array, target: Array) -> Array:
         long = _dot(slide, slide)
         moves = placed & (long >= PARALLEL**2)
         ahead = _dot(slide, goal.place - line.place)
-        first = np.where(moves, ahead / np.where(moves, long, 1.0), 0.0)
+        divisor = np.where(moves, long, 1.0)
+        first = np.where(moves, ahead / divisor, 0.0)
         second = np.full_like(first, np.nan)
     else:
         p = place(screw)
@@ -140,21 +143,28 @@ def one_turn(pair: Sides, rigid: PairPoses, k: int) -> Alignments:
     own = pair.b.screws[k]
     Ad = se3.adjoint(rigid.at.P)
     axes = pair.b.axes @ Ad.swapaxes(1, 2)
-    turn = turns((Ad @ own)[:, None], axes, pair.a.axes)
+    carried = Ad @ own
+    turn = turns(carried[:, None], axes, pair.a.axes)
     # The next axis on the other side of k that is not k's own line tells the offset.
     others = np.arange(pair.n)
-    beyond = front[:, None] & (others > k) | back[:, None] & (others < k)
+    behind_k = front[:, None] & (others > k)
+    before_k = back[:, None] & (others < k)
+    beyond = behind_k | before_k
     good = ~np.isnan(turn) & beyond[..., None]
     each = good.sum(-1)
-    before = (np.cumsum(each) - each.ravel()).reshape(each.shape)
-    first = others == np.where(back, 0, k + 1)[:, None]
-    good &= ((before <= MOST) | first)[..., None]
+    earlier = np.cumsum(each) - each.ravel()
+    before = earlier.reshape(each.shape)
+    one_axis = np.where(back, 0, k + 1)
+    first = others == one_axis[:, None]
+    tried = (before <= MOST) | first
+    good &= tried[..., None]
     which = np.nonzero(good)[0]
     turn = turn[good]
     behind = back[which]
     at = rigid.at[which]
     at.z[:, k] = np.where(behind, -turn, turn)
-    at.P[behind] @= se3.exp(own * turn[behind, None])
+    undone = se3.exp(own * turn[behind, None])
+    at.P[behind] @= undone
     return best(pair, at)
 
 
@@ -167,12 +177,14 @@ def one_by_one(pair: Sides) -> Alignments:
     if not len(start):
         start = rigid_poses(pair).at
     P = _on_the_first_turning_axis(pair, start.P)
-    beam = _Beam(Alignments(P, start.z), P, np.zeros(len(P)))
+    at = Alignments(P, start.z)
+    beam = _Beam(at, P, np.zeros(len(P)))
     for k in range(1, pair.n - 1):
         Ad = se3.adjoint(beam.D)
         own = pair.b.screws[k]
         following = Ad @ pair.b.axes[k + 1]
-        turn = turns(Ad @ own, following, pair.a.axes[k + 1])
+        target = pair.a.axes[k + 1]
+        turn = turns(Ad @ own, following, target)
         turn = np.where(turn == 0, np.nan, turn)
         turn = np.pad(turn, [(0, 0), (1, 0)])  # none is tried as well
         good = ~np.isnan(turn)
@@ -181,10 +193,11 @@ def one_by_one(pair: Sides) -> Alignments:
         beam.at.z[:, k] = turn
         miss = pair.deviations(beam.at)[:, k + 1]
         far = np.minimum(miss, 1e4) ** 0.5
-        loss = beam.loss + far + (abs(turn) > pair.zero_tolerance[k])
+        changed = abs(turn) > pair.zero_tolerance[k]
+        loss = beam.loss + far + changed
         D = beam.D @ se3.exp(own * turn[:, None])
-        kept = np.argsort(loss, kind="stable")[:BEAM]
-        beam = _Beam(beam.at, D, loss)[kept]
+        order = np.argsort(loss, kind="stable")
+        beam = _Beam(beam.at, D, loss)[order[:BEAM]]
     return beam.at
 
 
@@ -203,7 +216,8 @@ def _on_the_first_turning_axis(pair: Sides, P: Array) -> Array:
     if ours is None or theirs is None:
         return P
     P = P.copy()
-    carried = P[:, :3, :3] @ theirs + P[:, :3, 3]
+    R = P[:, :3, :3]
+    carried = R @ theirs + P[:, :3, 3]
     P[:, :3, 3] += ours - carried
     return P
 
@@ -233,10 +247,12 @@ def best(pair: Sides, at: Alignments, most: int = 4) -> Alignments:
     """
     b = pair.transformed(at)
     offsets = (abs(at.z) > 0).sum(1)
-    changes = offsets + (b.signs < 0).sum(1)
+    turned_round = (b.signs < 0).sum(1)
+    changes = offsets + turned_round
     miss = np.minimum(b.deviations, 1e6)
     loss = np.log1p(miss).sum(1) + 0.01 * changes
-    return at[np.argsort(loss, kind="stable")[:most]]
+    order = np.argsort(loss, kind="stable")
+    return at[order[:most]]
 
 
 def _frame(lines: Lines, i: int, j: int) -> _Frame | None:
@@ -268,7 +284,8 @@ def _frame(lines: Lines, i: int, j: int) -> _Frame | None:
         return None
     x = x / length
     frame = np.eye(4)
-    frame[:3] = np.stack([x, cross(z, x), z, origin], axis=1)
+    columns = [x, cross(z, x), z, origin]
+    frame[:3] = np.stack(columns, axis=1)
     return _Frame(frame, float(z @ other), parallel)
 
 
@@ -285,8 +302,10 @@ def _angle(w: Array, u: Array, v: Array) -> tuple[Array, Array]:
     """
     u = u - w * _dot(w, u)
     v = v - w * _dot(w, v)
-    angle = np.arctan2(_dot(w, cross(u, v)), _dot(u, v))
-    return angle, np.minimum(_dot(u, u), _dot(v, v))
+    sine = _dot(w, cross(u, v))
+    angle = np.arctan2(sine, _dot(u, v))
+    lesser = np.minimum(_dot(u, u), _dot(v, v))
+    return angle, lesser
 
 
 def _dot(x: Array, y: Array) -> Array:

@@ -40,8 +40,9 @@ def fit(
     stays where it starts. All starts are stepped at once, each with a damping of its own and until
     it is done.
     """
-    free = np.broadcast_to(free, starts.z.shape)
-    used = np.broadcast_to(used & pair.alike, starts.z.shape)
+    shape = starts.z.shape
+    free = np.broadcast_to(free, shape)
+    used = np.broadcast_to(used & pair.alike, shape)
     everywhere = np.arange(len(starts))
     best = _linearised(pair, starts[everywhere], free, used)
     damping = np.full(len(starts), 1e-6)
@@ -52,13 +53,16 @@ def fit(
             break
         here = best[live]
         held = damping[live]
-        tried = here.at.moved(_step(here.r, here.J, held))
+        steps = _step(here.r, here.J, held)
+        tried = here.at.moved(steps)
         trial = _linearised(pair, tried, free[live], used[live])
         gain = here.cost - trial.cost
         better = trial.cost < here.cost
-        worth_while = (gain >= 1e-12 * here.cost) & (trial.cost >= 1e-16)
+        gains = gain >= 1e-12 * here.cost
+        worth_while = gains & (trial.cost >= 1e-16)
         going[live] = np.where(better, worth_while, held <= 1e3)
-        damping[live] = np.where(better, np.maximum(held / 10, 1e-14), held * 10)
+        eased = np.maximum(held / 10, 1e-14)
+        damping[live] = np.where(better, eased, held * 10)
         best[live[better]] = trial[better]
     return best.at
 
@@ -78,8 +82,10 @@ def _step(r: Array, J: Array, damping: Array) -> Array:
     system[:, :rows, :-1] = J
     system[:, :rows, -1] = -r
     system[:, rows:, :-1] = held[:, None] * np.eye(columns)
-    R = np.asarray(np.linalg.qr(system, mode="r"))[:, :columns]
-    return np.linalg.solve(R[..., :-1], R[..., -1:])[..., 0]
+    triangular = np.asarray(np.linalg.qr(system, mode="r"))
+    R = triangular[:, :columns]
+    steps = np.linalg.solve(R[..., :-1], R[..., -1:])
+    return steps[..., 0]
 
 
 def _linearised(pair: Sides, at: Alignments, free: Marks, used: Marks) -> Linearised:
@@ -91,7 +97,8 @@ def _linearised(pair: Sides, at: Alignments, free: Marks, used: Marks) -> Linear
     screws = b.screws
     k = pair.suspect_joint
     # d Ad(e^xi) S = ad(xi) S = -ad(S) xi
-    base = (b.signs[..., None, None] * pair.weights) @ -se3.ad(b.axes)
+    weights = b.signs[..., None, None] * pair.weights
+    base = weights @ -se3.ad(b.axes)
     if k >= 0:
         screws[:, k] = pair.suspect_screw(screws[:, k])
     # A zero offset turns what is behind it as a turn of the base about the joint's axis would.
@@ -105,8 +112,10 @@ def _linearised(pair: Sides, at: Alignments, free: Marks, used: Marks) -> Linear
         columns[:, behind, :, :k] = base[:, behind] @ in_front[:, None]
     moved = free[:, None] & np.tri(pair.n, k=-1, dtype=bool)
     columns *= moved[:, :, None]
-    J = np.concatenate([base, columns], axis=3) * used[..., None, None]
+    J = np.concatenate([base, columns], axis=3)
+    J *= used[..., None, None]
     shape = len(at), 6 * pair.n
-    r = (b.residuals * used[..., None]).reshape(shape)
+    residuals = b.residuals * used[..., None]
+    r = residuals.reshape(shape)
     cost = (r * r).sum(1)
     return Linearised(at, r, J.reshape(*shape, J.shape[-1]), cost)

@@ -47,22 +47,25 @@ def search(a: Chain, b: Chain, tol: Tolerances) -> tuple[Hypothesis, list[Hypoth
     n = pair.n
     poses = rigid_poses(pair)
     found = make_hypotheses(pair, poses.at[:1])
+    (unmoved,) = found
     # Alike as they stand: nothing is to be aligned.
-    if not found[0].cost[0] and not found[0].frames:
-        return found[0], []
+    if not unmoved.cost[0] and not unmoved.frames:
+        return unmoved, []
     starts = best(pair, poses.at)
     found += _rigid(pair, starts, True)
     first = min(found, key=_cost)
     if first.cost[0] == 0:
         return first, []
     two = starts[:2]
-    all_but_one = ~np.eye(n, dtype=bool).repeat(len(two), 0)
+    alone = np.eye(n, dtype=bool)
+    all_but_one = ~alone.repeat(len(two), 0)
     found += _rigid(pair, two.tiled(n), all_but_one)
     if n > 2:
         found += _one_joint(pair, poses)
     found += _links(pair, poses.at)
     # Where several axes differ, those that most starts agree on; one bad axis is looked for above.
-    found += [start for start in make_hypotheses(pair, starts) if start.moved.sum() > 1]
+    readings = make_hypotheses(pair, starts)
+    found += [r for r in readings if r.moved.sum() > 1]
     miss = pair.deviations(starts)
     agree = np.concatenate([miss <= 10.0, miss <= 1.0])
     found += _rigid(pair, starts.tiled(2), agree)
@@ -84,15 +87,18 @@ def agreeing(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis | None:
     found = make_hypotheses(pair, rigid[:1])
     found += _rigid(pair, best(pair, rigid), True)
     if min(found, key=_cost).cost[0]:
-        found += _simplest(pair, _all_zeros_free(pair, _other_zeros(pair)))
+        starts = _other_zeros(pair)
+        found += _simplest(pair, _all_zeros_free(pair, starts))
     found.sort(key=_cost)
-    agree = (r for r in found if not r.moved.any() and poses_agree(pair, a, b, r))
+    unmoved = (r for r in found if not r.moved.any())
+    agree = (r for r in unmoved if poses_agree(pair, a, b, r))
     return next(agree, None)
 
 
 def _rigid(pair: Sides, starts: Alignments, used: Marks | bool) -> list[Hypothesis]:
     """Readings of starts fitted to the axes in `used`, zero offsets as they are."""
-    return make_hypotheses(pair, fit(pair, starts, False, used))
+    fitted = fit(pair, starts, False, used)
+    return make_hypotheses(pair, fitted)
 
 
 def _one_joint(pair: Sides, poses: PairPoses) -> list[Hypothesis]:
@@ -106,11 +112,13 @@ def _one_joint(pair: Sides, poses: PairPoses) -> list[Hypothesis]:
     # what agrees alone.
     tries = []
     for k, at in zip(inner, starts, strict=True):
-        tries.append(_start(at, alone[k], True))
-        tries.append(_start(at[:2], alone[k], ~alone[k]))
+        own = alone[k]
+        tries.append(_start(at, own, True))
+        tries.append(_start(at[:2], own, ~own))
     for k, at in zip(inner, starts, strict=True):
         two = at[:2]
-        tries.append(_start(two, alone[k], pair.deviations(two) <= 1.0))
+        agree = pair.deviations(two) <= 1.0
+        tries.append(_start(two, alone[k], agree))
     first, *others = tries
     together = first.joined(*others)
     return make_hypotheses(pair, together.fitted(pair))
@@ -119,7 +127,9 @@ def _one_joint(pair: Sides, poses: PairPoses) -> list[Hypothesis]:
 def _start(at: Alignments, free: Marks, used: Marks | bool) -> _Start:
     """Starts with the same joints free, and the same or their own axes used."""
     shape = at.z.shape
-    return _Start(at, np.broadcast_to(free, shape), np.broadcast_to(used, shape))
+    free = np.broadcast_to(free, shape)
+    used = np.broadcast_to(used, shape)
+    return _Start(at, free, used)
 
 
 def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
@@ -130,7 +140,8 @@ def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
         return first
     in_place = (r for r in found if not r.frames and r.moved.any())
     most = first.implicated.sum()
-    return next((r for r in in_place if r.implicated.sum() < most), first)
+    fewer = (r for r in in_place if r.implicated.sum() < most)
+    return next(fewer, first)
 
 
 def _links(pair: Sides, rigid: Alignments) -> list[Hypothesis]:
@@ -139,7 +150,8 @@ def _links(pair: Sides, rigid: Alignments) -> list[Hypothesis]:
     """
     found = []
     b = pair.transformed(rigid)
-    agree = (b.deviations <= 1.0) & (b.signs > 0)
+    near = b.deviations <= 1.0
+    agree = near & (b.signs > 0)
     for k in range(2, pair.n - 1):
         before = rigid[agree[:, :k].all(1)]
         behind = rigid[agree[:, k:].all(1)]
@@ -150,7 +162,8 @@ def _links(pair: Sides, rigid: Alignments) -> list[Hypothesis]:
             continue
         tool = tool_behind(pair, behind.P[0])
         frames = int(frames_moved(pair, reading.base, tool))
-        found.append(replace(reading, tool=tool, frames=frames, link=k))
+        reading = replace(reading, tool=tool, frames=frames, link=k)
+        found.append(reading)
     return found
 
 
@@ -161,7 +174,8 @@ def _conventions(pair: Sides) -> list[Hypothesis]:
     starts = _other_zeros(pair)
     fitted = _all_zeros_free(pair, starts)
     found = _simplest(pair, fitted)
-    if not min(found, key=_cost).moved.any():
+    first = min(found, key=_cost)
+    if not first.moved.any():
         return found
     two = best(pair, starts.joined(fitted), 2)
     tried = starts[:4].joined(two)
@@ -170,9 +184,11 @@ def _conventions(pair: Sides) -> list[Hypothesis]:
         suspects = pair.alike
     for k in np.flatnonzero(suspects):
         used = np.arange(pair.n) != k
-        for held in (pair, replace(pair, suspect_joint=int(k))):
+        suspecting = replace(pair, suspect_joint=int(k))
+        for held in (pair, suspecting):
             trial = fit(held, tried, _inner(pair), used)
-            fits = ~(held.deviations(trial)[:, used] > 1.0).any(1)
+            miss = held.deviations(trial)[:, used]
+            fits = ~(miss > 1.0).any(1)
             readings = _simplest(held, trial[fits])
             # Zero offsets about a's axis k say nothing of b's, unless that is another one.
             found += [r for r in readings if held.suspect_joint < 0 or r.moved[k]]
@@ -201,15 +217,19 @@ def _simplest(pair: Sides, at: Alignments) -> list[Hypothesis]:
     """
     z = wrapped(at.z, pair.b.revolute)
     at = Alignments(at.P.copy(), z)
-    kept = _Start(at, abs(z) > 0, pair.deviations(at) <= 1.0)
-    for k in np.argsort(abs(z), axis=1).T[..., None]:
+    size = abs(z)
+    agree = pair.deviations(at) <= 1.0
+    kept = _Start(at, size > 0, agree)
+    least_first = np.argsort(size, axis=1)
+    for k in least_first.T[..., None]:
         free = np.take_along_axis(kept.free, k, 1)
         (row,) = np.nonzero(free[:, 0])
         trial = kept[row]
         np.put_along_axis(trial.free, k[row], False, 1)
         np.put_along_axis(trial.at.z, k[row], 0.0, 1)
         trial = replace(trial, at=trial.fitted(pair))
-        lost = (pair.deviations(trial.at) > 1.0) & trial.used
+        miss = pair.deviations(trial.at)
+        lost = (miss > 1.0) & trial.used
         fits = ~lost.any(1)
         kept[row[fits]] = trial[fits]
     return make_hypotheses(pair, kept.at)

@@ -65,7 +65,10 @@ class JointNumbers(NamedTuple):
 
 def chain(joints: tuple[UrdfJoint, ...], order: tuple[int, ...] = ()) -> UrdfLayout:
     """Joints one after the other, in the file in that order or another one."""
-    return UrdfLayout(joints, order or tuple(range(len(joints))), tuple(range(-1, len(joints) - 1)))
+    n = len(joints)
+    as_they_come = tuple(range(n))
+    one_before = tuple(range(-1, n - 1))
+    return UrdfLayout(joints, order or as_they_come, one_before)
 
 
 def rows_of(case: Case) -> np.ndarray:
@@ -75,7 +78,19 @@ def rows_of(case: Case) -> np.ndarray:
 
 def numbers_of(case: Case) -> list[JointNumbers]:
     """Numbers of each joint."""
-    return [JointNumbers(x[:3], x[3:6], x[6:9], *x[9:].tolist()) for x in rows_of(case)]
+    return list(map(_joint_numbers, rows_of(case)))
+
+
+def _joint_numbers(row: np.ndarray) -> JointNumbers:
+    factor, shift, q = row[9:].tolist()
+    return JointNumbers(
+        axis=row[:3],
+        xyz=row[3:6],
+        rpy=row[6:9],
+        factor=factor,
+        shift=shift,
+        q=q,
+    )
 
 
 def moving(case: Case) -> list[int]:
@@ -184,7 +199,7 @@ def arm(case: Case, tip: int = TIP) -> tuple[ArmData, np.ndarray, list[str]]:
     joints = case.layout.joints
     numbers = numbers_of(case)
     on = path(case, tip)
-    masters = [joints[k].follows if joints[k].follows >= 0 else k for k in on]
+    masters = [_master(case, k) for k in on]
     own = [k for k in moving(case) if k in masters]
     T = exact.exactly(np.eye(4))
     screws = []
@@ -204,6 +219,7 @@ def arm(case: Case, tip: int = TIP) -> tuple[ArmData, np.ndarray, list[str]]:
             coupling.append(follows * (1 + numbers[k].factor))
             offset.append(numbers[k].shift)
     n = len(screws)
+    turns = np.abs([numbers[k].rpy for k in on])
     found = ArmData(
         screws=np.array(screws, dtype=object).reshape(n, 6),
         home=T,
@@ -212,9 +228,19 @@ def arm(case: Case, tip: int = TIP) -> tuple[ArmData, np.ndarray, list[str]]:
         dof=len(own),
         reach=sum(size(numbers[k].xyz) for k in on),
         # A fixed joint is a factor, too.
-        turned=float(np.abs([numbers[k].rpy for k in on]).sum()) + len(on),
+        turned=float(turns.sum()) + len(on),
     )
-    return found, np.array([numbers[k].q for k in own]), [joints[k].name for k in own]
+    q = np.array([numbers[k].q for k in own])
+    names = [joints[k].name for k in own]
+    return found, q, names
+
+
+def _master(case: Case, k: int) -> int:
+    """The place of the joint whose coordinate moves a joint: of the one that it mimics, or its own."""
+    follows = case.layout.joints[k].follows
+    if follows < 0:
+        return k
+    return follows
 
 
 def simpler(case: Case) -> Iterable[Case]:
@@ -224,17 +250,22 @@ def simpler(case: Case) -> Iterable[Case]:
     layout = case.layout
     rows = rows_of(case)
     for k in range(len(rows)):
-        if len(rows) > 1 and not any(joint.follows == k for joint in layout.joints):
+        mimicked = any(joint.follows == k for joint in layout.joints)
+        if len(rows) > 1 and not mimicked:
             yield _without_joint(case, k)
     for k, joint in enumerate(layout.joints):
         if joint.follows >= 0:
-            free = (*layout.joints[:k], joint._replace(follows=-1), *layout.joints[k + 1 :])
+            joints = list(layout.joints)
+            joints[k] = joint._replace(follows=-1)
             numbers = rows.copy()
             numbers[k, MIMIC] = 0.0
-            yield Case(numbers.ravel(), layout._replace(joints=free))
+            free = layout._replace(joints=tuple(joints))
+            yield Case(numbers.ravel(), free)
     plain = chain(layout.joints)
     written = tuple(joint._replace(axis=True) for joint in layout.joints)
-    for other in (plain, layout._replace(order=plain.order), layout._replace(joints=written)):
+    in_order = layout._replace(order=plain.order)
+    all_written = layout._replace(joints=written)
+    for other in (plain, in_order, all_written):
         if other != layout:
             yield case._replace(layout=other)
 
@@ -262,9 +293,10 @@ def _without_joint(case: Case, k: int) -> Case:
 
 def allowed(case: Case) -> bool:
     """There is a joint, and every value stays within the limits."""
-    return len(rows_of(case)) > 0 and all(
-        abs(x) <= LIMIT for x in exact.rounded(np.array(_values(case), dtype=object))
-    )
+    if not len(rows_of(case)):
+        return False
+    values = np.array(_values(case), dtype=object)
+    return all(abs(x) <= LIMIT for x in exact.rounded(values))
 
 
 def triples(case: Case) -> Iterable[int]:
@@ -282,11 +314,13 @@ def _values(case: Case) -> list[Any]:
     values = []
     for joint, own in zip(case.layout.joints, numbers, strict=True):
         if joint.follows < 0:
-            values.append(exact.mp.mpf(own.q * (joint.kind != "fixed")))
+            q = own.q * (joint.kind != "fixed")
+            values.append(exact.mp.mpf(q))
         else:
             # The multiplier is what is written: the sum, rounded.
             factor = exact.mp.mpf(1 + own.factor)
-            values.append(factor * numbers[joint.follows].q + own.shift)
+            q = numbers[joint.follows].q
+            values.append(factor * q + own.shift)
     return values
 
 
