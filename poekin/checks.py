@@ -23,15 +23,18 @@ class _Required:
 
 REQUIRED: Any = _Required()
 
+_FLOATS = (float, np.floating)
+_REAL = (int, np.integer, *_FLOATS)
+
 
 def is_real(value: Any) -> bool:
     """Whether it is a real number; True and False are none."""
-    return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
+    return isinstance(value, _REAL) and not isinstance(value, bool)
 
 
 def is_whole(value: Any, least: int) -> TypeGuard[int]:
     """Whether it is a whole number from `least` on; True and False are none."""
-    return is_real(value) and not isinstance(value, (float, np.floating)) and value >= least
+    return is_real(value) and not isinstance(value, _FLOATS) and value >= least
 
 
 def positive(value: Any, what: str) -> float:
@@ -41,7 +44,12 @@ def positive(value: Any, what: str) -> float:
     return float(value)
 
 
-def whole(value: Any, what: str, least: int, below: float = math.inf) -> int:
+def whole(
+    value: Any,
+    what: str,
+    least: int,
+    below: float = math.inf,
+) -> int:
     """A whole number from `least` on, below a bound. Raises: InputError."""
     if not is_whole(value, least) or value >= below:
         raise InputError(f"{what}: expected a whole number from {least} on, got {safe_repr(value)}")
@@ -54,7 +62,12 @@ def true_or_false(value: Any, what: str) -> None:
         raise InputError(f"{what}: expected True or False, got {safe_repr(value)}")
 
 
-def choice(value: object, known: Iterable[str], what: str, hint: str = "") -> None:
+def choice(
+    value: object,
+    known: Iterable[str],
+    what: str,
+    hint: str = "",
+) -> None:
     """Refuses a value that is none of the known words, with a list of them. Raises: InputError."""
     if isinstance(value, str) and value in known:
         return

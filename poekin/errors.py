@@ -68,7 +68,11 @@ class PoekinWarning(UserWarning):
     """Something in the input was repaired or ignored; says what and where."""
 
 
-def escape_unprintable(text: object, width: int | None = None, keep: str = "") -> str:
+def escape_unprintable(
+    text: object,
+    width: int | None = None,
+    keep: str = "",
+) -> str:
     """Text whose unprintable characters are escaped, except those in `keep`, cut at `width`."""
 
     def shown(c: str) -> str:
@@ -110,7 +114,11 @@ def join_names(names: Iterable[object], most: int = 12) -> str:
     return f"{listed} and {len(every) - most} more"
 
 
-def close_names(name: object, available: Iterable[str], most: int = 5) -> list[str]:
+def close_names(
+    name: object,
+    available: Iterable[str],
+    most: int = 5,
+) -> list[str]:
     """Available names closest to a name, or those alone that differ from it in case only."""
     asked = str(name).casefold()
     spelled: dict[str, list[str]] = {}
@@ -125,7 +133,11 @@ def close_names(name: object, available: Iterable[str], most: int = 5) -> list[s
     return found[:most]
 
 
-def suggest(name: object, available: Iterable[str], most: int = 5) -> str:
+def suggest(
+    name: object,
+    available: Iterable[str],
+    most: int = 5,
+) -> str:
     """End of a message about an unknown name: the available names closest to it."""
     names = list(available)
     if not names:

@@ -145,7 +145,8 @@ class AxesReport(Result):
         text : str
             Lines such as "joint1 - joint2: parallel, 425 mm apart".
         """
-        return "\n".join(row.summary() for row in (*self.pairs, *self.shapes))
+        rows = (*self.pairs, *self.shapes)
+        return "\n".join(row.summary() for row in rows)
 
 
 def axes(

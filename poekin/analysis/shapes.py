@@ -65,7 +65,11 @@ class Shape(Result):
         return f"{joints}: {self.kind}, {meet}"
 
 
-def shapes(chain: Chain, coaxial: Sequence[bool], tol: Tolerances) -> tuple[Shape, ...]:
+def shapes(
+    chain: Chain,
+    coaxial: Sequence[bool],
+    tol: Tolerances,
+) -> tuple[Shape, ...]:
     """The shapes of a chain at rest, of whose joints k and k + 1 are coaxial or not.
 
     Three revolute axes that meet in one point at q = 0 meet at every q, as each turns about a line

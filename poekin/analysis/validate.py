@@ -161,7 +161,8 @@ class Validation(Result):
             f"{self.robot} {head}: {len(self.chains)} chains against Pinocchio {self.pinocchio}, "
             f"largest error {self.error:.3g} R, the bar is {self.bar:g} R"
         ]
-        return "\n".join(lines + [row.summary() for row in self.chains if not row.passed])
+        failed = [row.summary() for row in self.chains if not row.passed]
+        return "\n".join(lines + failed)
 
 
 def validate(
@@ -214,7 +215,8 @@ def validate(
     """
     whole(samples, "samples", 0)
     model, oracle = _both(robot)
-    q = oracle.random(np.random.default_rng(seed), samples + 1)
+    rng = np.random.default_rng(seed)
+    q = oracle.random(rng, samples + 1)
     for values in q.values():
         values[0] = 0.0
     rows = []
@@ -264,7 +266,8 @@ def chain_errors(
     configurations = np.zeros((len(expected), chain.dof))
     for i, name in enumerate(chain.q_names):
         configurations[:, i] = q[name]
-    apart = (chain.fk(configurations) - expected)[:, :3]
+    differences = chain.fk(configurations) - expected
+    apart = differences[:, :3]
     apart[..., 3] *= 1 / chain.reach
     errors = [np.abs(apart).max((1, 2))]
     own = [oracle.coordinates.index(name) for name in chain.q_names]
@@ -276,9 +279,11 @@ def chain_errors(
         errors.append(size.max((1, 2), initial=0.0))
     largest = np.nan_to_num(np.max(errors, axis=0), nan=np.inf)
     worst = int(np.argmax(largest))
-    configuration = dict(zip(chain.q_names, configurations[worst].tolist(), strict=True))
+    q_worst = configurations[worst].tolist()
+    configuration = dict(zip(chain.q_names, q_worst, strict=True))
     # np.max hands on a NaN, so that one wrong configuration cannot hide among right ones.
-    return _row(chain, np.max(errors, axis=1).tolist(), configuration, note)
+    of_parts = np.max(errors, axis=1).tolist()
+    return _row(chain, of_parts, configuration, note)
 
 
 def _row(
@@ -287,7 +292,13 @@ def _row(
     configuration: dict[str, float],
     note: str,
 ) -> ChainErrors:
-    ends = (chain.base, chain.tip, len(chain.joint_names), chain.dof, chain.reach)
+    ends = (
+        chain.base,
+        chain.tip,
+        len(chain.joint_names),
+        chain.dof,
+        chain.reach,
+    )
     pose, space, body, hybrid = errors
     return ChainErrors(*ends, pose, space, body, hybrid, configuration, note)
 
@@ -318,7 +329,11 @@ def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
             yield base, free.parent, end
 
 
-def _way(robot: Robot, above: dict[str, Joint], tip: str) -> tuple[str, list[str], str]:
+def _way(
+    robot: Robot,
+    above: dict[str, Joint],
+    tip: str,
+) -> tuple[str, list[str], str]:
     """The link that the longest chain to a link starts at, its joints that move, and the note on
     its start.
     """

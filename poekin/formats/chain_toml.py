@@ -25,8 +25,12 @@ _KEYS = (*_NAMES, *_ARRAYS, "coupling", "pitches")
 
 def to_data(chain: Chain) -> dict[str, Any]:
     """Table of a chain: frames, names, screws, home pose, limits, offset; coupling and pitches."""
-    data: dict[str, Any] = {"base": chain.base, "tip": chain.tip}
-    data |= {key: list(getattr(chain, key)) for key in ("joint_names", "q_names")}
+    data: dict[str, Any] = {
+        "base": chain.base,
+        "tip": chain.tip,
+        "joint_names": list(chain.joint_names),
+        "q_names": list(chain.q_names),
+    }
     data |= {key: getattr(chain, key).tolist() for key in _ARRAYS}
     if chain.nontrivial_coupling is not None:
         data["coupling"] = chain.nontrivial_coupling.tolist()
@@ -45,7 +49,8 @@ def to_chain(keys: Keys) -> Chain:
     n = len(joints)
     m = len(names)
     optional = {"coupling": (n, m), "pitches": (n,)}
-    arrays = {key: keys.array(key, shape) for key, shape in optional.items() if key in keys.data}
+    given = (key for key in optional if key in keys.data)
+    arrays = {key: keys.array(key, optional[key]) for key in given}
     try:
         return Chain.from_space(
             keys.array("screws", (n, 6)),

@@ -136,11 +136,10 @@ def _check_alike(nominal: Chain, chain: Chain) -> None:
             raise InputError(
                 f"joint {quote(a)} of the robot is {kind}, and {quote(b)} of the chain is {other}"
             )
-    free = np.array_equal(chain.coupling, np.eye(len(mine))) and not chain.offset.any()
-    same = np.array_equal(chain.coupling, nominal.coupling) and np.array_equal(
-        chain.offset,
-        nominal.offset,
-    )
+    uncoupled = np.array_equal(chain.coupling, np.eye(len(mine)))
+    free = uncoupled and not chain.offset.any()
+    coupled_alike = np.array_equal(chain.coupling, nominal.coupling)
+    same = coupled_alike and np.array_equal(chain.offset, nominal.offset)
     if not (free or same):
         raise InputError(
             "the chain's joints follow its coordinates otherwise than the robot's: x = C q + c differs"
@@ -153,7 +152,8 @@ def _origins(joints: Sequence[Joint], chain: Chain) -> list[Joint]:
     H and G are the poses of a link in the top link's frame at x = 0: the nominal one and the new
     one.
     """
-    last = max(k for k, joint in enumerate(joints) if joint.kind != "fixed")
+    moving = (k for k, joint in enumerate(joints) if joint.kind != "fixed")
+    last = max(moving)
     H = G = np.eye(4)
     result: list[Joint] = []
     i = 0
@@ -169,14 +169,21 @@ def _origins(joints: Sequence[Joint], chain: Chain) -> list[Joint]:
                 G = chain.home @ se3.inverse(behind)
                 joint = replace(joint, origin=se3.inverse(above) @ G)
         else:
-            joint, G = _moved(joint, H, chain, i, k == last == len(joints) - 1)
+            at_tip = k == last == len(joints) - 1
+            joint, G = _moved(joint, H, chain, i, at_tip)
             joint = replace(joint, origin=se3.inverse(above) @ G)
             i += 1
         result.append(joint)
     return result
 
 
-def _moved(joint: Joint, H: Array, chain: Chain, i: int, at_tip: bool) -> tuple[Joint, Array]:
+def _moved(
+    joint: Joint,
+    H: Array,
+    chain: Chain,
+    i: int,
+    at_tip: bool,
+) -> tuple[Joint, Array]:
     """Joint i of the chain and the pose of the link that it moves, which is the tip if `at_tip`."""
     screw = chain.screws[i]
     turns = chain.local.rotates[i] != 0
@@ -189,7 +196,8 @@ def _moved(joint: Joint, H: Array, chain: Chain, i: int, at_tip: bool) -> tuple[
     if turns:
         joint = replace(joint, pitch=float(chain.local.slides[i]))
         foot = np.cross(w, screw[3:])
-        G[:3, 3] = foot + w * (w @ (G[:3, 3] - foot))
+        along = w @ (G[:3, 3] - foot)
+        G[:3, 3] = foot + w * along
     off = np.cross(z, w)
     sine = float(np.linalg.norm(off))
     if at_tip:
@@ -202,5 +210,7 @@ def _moved(joint: Joint, H: Array, chain: Chain, i: int, at_tip: bool) -> tuple[
             )
         return joint, chain.home
     if sine:
-        G[:3, :3] = so3.exp(off / sine * math.atan2(sine, float(z @ w))) @ G[:3, :3]
+        angle = math.atan2(sine, float(z @ w))
+        turn = so3.exp(off / sine * angle)
+        G[:3, :3] = turn @ G[:3, :3]
     return joint, G

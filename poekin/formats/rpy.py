@@ -10,7 +10,10 @@ import numpy as np
 from ..groups import rpy
 
 
-def pose(xyz: Sequence[float], turns: Sequence[float]) -> np.ndarray:
+def pose(
+    xyz: Sequence[float],
+    turns: Sequence[float],
+) -> np.ndarray:
     """The pose (4, 4) of a frame at xyz [m], turned by (roll, pitch, yaw) [rad], in its parent's
     frame.
 

@@ -74,7 +74,8 @@ def serial_robot(chain: Arm) -> Robot:
     values, masters, changes = _values(chain)
     joints = [_joint(chain, i, value, links[i], links[i + 1]) for i, value in enumerate(values)]
     fixed = free_name(f"{chain.tip}_joint", set(chain.joint_names))
-    joints.append(Joint(fixed, "fixed", links[-2], links[-1], chain.local.frames[-1]))
+    origin = chain.local.frames[-1]
+    joints.append(Joint(fixed, "fixed", links[-2], links[-1], origin))
     robot = Robot(name, links, joints)
     if list(robot.q_names) != masters:
         changes.append(f"the order is {', '.join(map(quote, robot.q_names))}")
@@ -86,7 +87,13 @@ def serial_robot(chain: Arm) -> Robot:
     return robot
 
 
-def _joint(chain: Chain, i: int, value: Value, parent: str, child: str) -> Joint:
+def _joint(
+    chain: Chain,
+    i: int,
+    value: Value,
+    parent: str,
+    child: str,
+) -> Joint:
     name = chain.joint_names[i]
     kind = chain.kinds[i]
     origin = chain.local.frames[i]
@@ -122,7 +129,8 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
     changes: list[str] = []
     for joint, row in zip(chain.joint_names, C, strict=True):
         if np.count_nonzero(row) > 1:
-            several = join_names(chain.q_names[k] for k in np.flatnonzero(row))
+            ks = np.flatnonzero(row)
+            several = join_names(chain.q_names[k] for k in ks)
             raise InputError(
                 f"joint {quote(joint)} follows several coordinates, {several}: a robot's joint follows one"
             )
@@ -147,14 +155,18 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
             )
         for i, own in ratios.items():
             if i != master:
-                mimic = Mimic(name, own / ratio, c[i] - own / ratio * shift)
+                multiplier = own / ratio
+                mimic = Mimic(name, multiplier, c[i] - multiplier * shift)
                 image = _image(values[master].limits, mimic.multiplier, mimic.offset)
                 values[i] = Value(limits=image, mimic=mimic)
         masters.append(name)
     return values, masters, changes
 
 
-def _master(ratios: dict[int, float], shifts: list[float]) -> int:
+def _master(
+    ratios: dict[int, float],
+    shifts: list[float],
+) -> int:
     """The first joint with x = q, else with x = q + c, else with x = -q + c, else the first."""
 
     def rank(i: int) -> tuple[bool, ...]:

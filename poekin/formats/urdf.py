@@ -68,10 +68,16 @@ def read(path: FilePath) -> Robot:
     PoekinWarning with file and line for what was repaired (see the top of this module).
     Accuracy: origins to rounding, rotations orthonormal to 1e-15.
     """
-    return read_text(xml.read_bytes(path), os.fsdecode(path), os.path.abspath(os.fsdecode(path)))
+    text = xml.read_bytes(path)
+    name = os.fsdecode(path)
+    return read_text(text, name, os.path.abspath(name))
 
 
-def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robot:
+def read_text(
+    text: str | bytes,
+    name: str = "<text>",
+    origin: str = "",
+) -> Robot:
     """The robot in the text of a URDF; `name` stands for the file in messages; origin as in
     `Source`.
 
@@ -109,7 +115,8 @@ def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robo
         origin,
     )
     stem = os.path.splitext(os.path.basename(name))[0]
-    robot = Robot(root.get("name") or stem, [link.name("name") for link in links], joints, lines)
+    names = [link.name("name") for link in links]
+    robot = Robot(root.get("name") or stem, names, joints, lines)
     _warn(repairs, source)
     return robot
 
@@ -169,7 +176,8 @@ def _origin(element: Fields | None, repairs: Repairs, quaternions: bool) -> Arra
     length = math.hypot(*quaternion)
     if not length:
         raise element.fault("quat_xyzw must not be zero")
-    row = np.array([[*xyz, *(x / length for x in quaternion)]])
+    unit = (x / length for x in quaternion)
+    row = np.array([[*xyz, *unit]])
     return pose_rows.to_poses(row, "7", "xyzw", lambda _: element.what)[0]
 
 
@@ -233,7 +241,12 @@ def _mimic(fields: Fields, kind: str) -> Mimic | None:
     return Mimic(element.name("joint"), **numbers)
 
 
-def _with_known_master(joint: Joint, fields: Fields, known: set[str], repairs: Repairs) -> Joint:
+def _with_known_master(
+    joint: Joint,
+    fields: Fields,
+    known: set[str],
+    repairs: Repairs,
+) -> Joint:
     if joint.mimic is None or joint.mimic.joint in known:
         return joint
     element = fields.child("mimic") or fields

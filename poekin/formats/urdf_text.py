@@ -31,7 +31,11 @@ _IMPOSSIBLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]
 _MARKUP = '&<>"'
 
 
-def to_urdf(model: Robot | Arm, *, name: str | None = None) -> str:
+def to_urdf(
+    model: Robot | Arm,
+    *,
+    name: str | None = None,
+) -> str:
     """URDF text of a robot or a chain: kinematics, names and limits, without mesh or inertia.
 
     A `Robot` keeps its tree: links, joints, origins, axes, mimic and order. A `Chain` becomes a
@@ -122,7 +126,8 @@ def _joint(joint: Joint) -> Iterator[str]:
         lower, upper, most = map(_numbers, (*joint.limits, UNLIMITED))
         yield f'    <limit lower="{lower}" upper="{upper}" effort="{most}" velocity="{most}"/>'
     if joint.mimic is not None:
-        multiplier, offset = map(_numbers, (joint.mimic.multiplier, joint.mimic.offset))
+        mimic = joint.mimic
+        multiplier, offset = map(_numbers, (mimic.multiplier, mimic.offset))
         master = quote_attribute(joint.mimic.joint, "joint")
         yield f'    <mimic joint={master} multiplier="{multiplier}" offset="{offset}"/>'
     yield "  </joint>"
@@ -131,7 +136,8 @@ def _joint(joint: Joint) -> Iterator[str]:
 def _numbers(*values: float) -> str:
     """Numbers in the shortest form that reads back as the same floats, an infinite one as ±1e16."""
     finite = np.nan_to_num(values, nan=math.nan, posinf=UNLIMITED, neginf=-UNLIMITED)
-    return " ".join(repr(value).removesuffix(".0") for value in finite.tolist())
+    words = (repr(value).removesuffix(".0") for value in finite.tolist())
+    return " ".join(words)
 
 
 def quote_attribute(name: str, what: str) -> str:
@@ -141,5 +147,11 @@ def quote_attribute(name: str, what: str) -> str:
         raise InputError(
             f"{what} {quote(name)}: XML cannot hold the character U+{ord(bad[0]):04X} of its name"
         )
-    escaped = "".join(c if c.isprintable() and c not in _MARKUP else f"&#{ord(c)};" for c in name)
+    escaped = "".join(map(_escaped, name))
     return f'"{escaped}"'
+
+
+def _escaped(c: str) -> str:
+    if c.isprintable() and c not in _MARKUP:
+        return c
+    return f"&#{ord(c)};"

@@ -87,7 +87,11 @@ def _text(key: str, value: Any) -> str:
     return str(value)
 
 
-def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
+def _evaluated(
+    name: str,
+    robot: str | None,
+    values: dict[str, str],
+) -> str:
     """URDF text of an evaluated file; robot is the name on its root element, if there is one."""
     xacrodoc, xacro_ = _packages()
     # Included from another document, by its whole path, the file is where its own includes are

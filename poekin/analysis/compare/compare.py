@@ -188,7 +188,10 @@ def _matched(a: Chain, b: Chain, asked: _Asked) -> _Matched | None:
     )
 
 
-def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:
+def _names(
+    chain: Chain,
+    ks: tuple[int, ...],
+) -> tuple[str, ...]:
     return tuple(chain.joint_names[k] for k in ks)
 
 
@@ -214,7 +217,12 @@ def _comparison(asked: _Asked, **found: Any) -> Comparison:
     )
 
 
-def _compared(a: Chain, b: Chain, ratio: float, asked: _Asked) -> tuple[Comparison, int]:
+def _compared(
+    a: Chain,
+    b: Chain,
+    ratio: float,
+    asked: _Asked,
+) -> tuple[Comparison, int]:
     """The comparison of two chains in one length unit, and how many axes or links differ; `ratio`
     is to be told.
     """

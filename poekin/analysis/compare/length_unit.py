@@ -31,7 +31,11 @@ def length_ratio(a: Chain, b: Chain) -> float:
     return 1.0
 
 
-def to_one_unit(a: Chain, b: Chain, ratio: float) -> tuple[Chain, Chain]:
+def to_one_unit(
+    a: Chain,
+    b: Chain,
+    ratio: float,
+) -> tuple[Chain, Chain]:
     """Both chains, the one rescaled whose lengths are the less likely in metres, so that tolerances
     keep their size.
     """

@@ -130,7 +130,11 @@ def index_without(gone: Sequence[int], j: int) -> int:
     return j - sum(k < j for k in gone)
 
 
-def _side(ours: Lines, joints: Iterable[int], gone: Sequence[int]) -> list[int]:
+def _side(
+    ours: Lines,
+    joints: Iterable[int],
+    gone: Sequence[int],
+) -> list[int]:
     """The first of these joints, and those beyond it as far as there are slides between, which
     leave directions.
     """
@@ -188,7 +192,13 @@ def _placed(ours: Lines, side: list[int]) -> bool:
     return not ours.slides[last] and all(along)
 
 
-def _angle(w: Array, way: Array, other: Array, place: int, part: slice) -> _Relation:
+def _angle(
+    w: Array,
+    way: Array,
+    other: Array,
+    place: int,
+    part: slice,
+) -> _Relation:
     """An axis behind makes the angle with direction w that `other` makes with `way`."""
     rows = w[None]
     goal = np.array([way @ other])
@@ -200,7 +210,12 @@ def _angle(w: Array, way: Array, other: Array, place: int, part: slice) -> _Rela
     return _Linear(place, C, goal)
 
 
-def _apart(axis: Array, first: Array, second: Array, place: int) -> _Relation:
+def _apart(
+    axis: Array,
+    first: Array,
+    second: Array,
+    place: int,
+) -> _Relation:
     """An axis behind is as far from `axis` as `second` is from `first`."""
     w = first[:3]
     u = second[:3]

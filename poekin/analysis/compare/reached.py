@@ -17,7 +17,12 @@ from .alignment.lines import Sides
 SAMPLES = 8
 
 
-def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Hypothesis) -> bool:
+def poses_agree(
+    pair: Sides,
+    a: Chain,
+    b: Chain,
+    reading: Hypothesis,
+) -> bool:
     """Whether f_a(x) = base f_b(directions x + zeros) tool as nearly as axes within tolerance let
     it be.
 

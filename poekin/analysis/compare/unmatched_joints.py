@@ -54,7 +54,11 @@ def droppable(
     return ks, np.array(held)
 
 
-def without(chain: Chain, ks: tuple[int, ...], held: Sequence[float] | Array) -> Chain:
+def without(
+    chain: Chain,
+    ks: tuple[int, ...],
+    held: Sequence[float] | Array,
+) -> Chain:
     """The chain with some joints held at these positions."""
     q = np.zeros(chain.dof)
     q[list(ks)] = held

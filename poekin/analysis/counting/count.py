@@ -50,7 +50,12 @@ class Method:
 def _general(algorithm: scalars.Algorithm, form: scalars.Form) -> Run:
     """An algorithm on links of a form."""
 
-    def run(chain: Chain, _frame: Any, counting: Counting, pose: bool) -> Count:
+    def run(
+        chain: Chain,
+        _frame: Any,
+        counting: Counting,
+        pose: bool,
+    ) -> Count:
         if counting == "paper":
             return scalars.paper_operations(algorithm, chain, pose)
         if counting == "live":
@@ -60,12 +65,22 @@ def _general(algorithm: scalars.Algorithm, form: scalars.Form) -> Run:
     return run
 
 
-def _structured(chain: Chain, frame: Any, counting: Counting, pose: bool) -> Count:
+def _structured(
+    chain: Chain,
+    frame: Any,
+    counting: Counting,
+    pose: bool,
+) -> Count:
     general = scalars.generic_structure(chain, tool=counting == "everything")
     return cheapest_program(general, frame, pose).count
 
 
-def _specialised(chain: Chain, frame: Any, _counting: Counting, pose: bool) -> Count:
+def _specialised(
+    chain: Chain,
+    frame: Any,
+    _counting: Counting,
+    pose: bool,
+) -> Count:
     return chain.compile().program(frame, pose=pose).count
 
 

@@ -63,7 +63,12 @@ def live_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Coun
     return _count(graph, Angles(graph), T, J)
 
 
-def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bool) -> Count:
+def all_operations(
+    algorithm: Algorithm,
+    form: Form,
+    chain: Chain,
+    with_pose: bool,
+) -> Count:
     """Operations that an algorithm's result needs from q on: sines, cosines, the links' poses in
     their form, and the coupling.
     """
@@ -94,7 +99,9 @@ def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bo
 def exponential(motion: Motion, rng: np.random.Generator) -> Row:
     """e^{A x} of a general screw: 15 multiplications and 13 additions of a revolute joint."""
     A = generic_screw(motion.kind, rng)
-    return joint(A[:3], A[3:], motion.x, motion.sine, motion.cosine)
+    omega = A[:3]
+    v = A[3:]
+    return joint(omega, v, motion.x, motion.sine, motion.cosine)
 
 
 def general_link(motion: Motion, rng: np.random.Generator) -> Row:
@@ -104,7 +111,8 @@ def general_link(motion: Motion, rng: np.random.Generator) -> Row:
 
 def z_link(motion: Motion, rng: np.random.Generator) -> Row:
     """M e^{S x} in z-aligned link frames: 12 multiplications and 6 additions of a revolute joint."""
-    return turned_about_z(generic_pose(rng), motion.sine, motion.cosine, motion.shift)
+    M = generic_pose(rng)
+    return turned_about_z(M, motion.sine, motion.cosine, motion.shift)
 
 
 def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
@@ -223,6 +231,11 @@ def _run(
     return J, finish()
 
 
-def _count(graph: Graph, angles: Angles, T: Row, J: Rows) -> Count:
+def _count(
+    graph: Graph,
+    angles: Angles,
+    T: Row,
+    J: Rows,
+) -> Count:
     entries = (x for row in J for x in row)
     return program(graph, angles, [*T, *entries]).count

@@ -35,7 +35,12 @@ def moving_chain(arm: Arm) -> Chain:
     return chain
 
 
-def scaled(X: Array, axis: int, part: Part, length: float) -> Array:
+def scaled(
+    X: Array,
+    axis: int,
+    part: Part,
+    length: float,
+) -> Array:
     """The rows of a part, along an axis of J (-2) or of its Hessian (-3); of the pose with v ÷
     length.
     """
@@ -67,7 +72,12 @@ def random_configurations(chain: Chain) -> Array:
     return half_range(chain) * shares
 
 
-def largest_rank(J: Array, reach: float, part: Part, tolerance: float = TOLERANCE) -> int:
+def largest_rank(
+    J: Array,
+    reach: float,
+    part: Part,
+    tolerance: float = TOLERANCE,
+) -> int:
     """The largest rank of a part of hybrid Jacobians (N, 6, m) per rad or m of the joints.
 
     Lengths are in units of the arm's own size, so that it does not matter.

@@ -87,7 +87,12 @@ class Manipulability(Result):
         return "\n".join(f"{part}: {measures}" for part, measures in vars(self).items())
 
 
-def manipulability(chain: Chain, q: Any, *, length: float = 1.0) -> Manipulability:
+def manipulability(
+    chain: Chain,
+    q: Any,
+    *,
+    length: float = 1.0,
+) -> Manipulability:
     """Yoshikawa's measure, condition number and smallest singular value of the hybrid Jacobian.
 
     The rows are (ω; v), in base axes, with v the velocity of the tool's origin. An arm with fewer
@@ -222,7 +227,12 @@ def _counted(chain: Chain, part: Part) -> int:
     return max(generic_rank(chain, part), 1)
 
 
-def _measures(chain: Chain, J: Array, part: Part, length: float) -> Measures:
+def _measures(
+    chain: Chain,
+    J: Array,
+    part: Part,
+    length: float,
+) -> Measures:
     _, s, _ = svd(scaled(J, -2, part, length))
     s = s[..., : _counted(chain, part)]
     smallest = s[..., -1]

@@ -28,7 +28,11 @@ def motion_words(V: Array) -> str:
     return f"{turning} while its origin is {moving} by {v / w:.3g} m per rad"
 
 
-def rate_words(q_names: tuple[str, ...], rates: Array, ratios: Array) -> str:
+def rate_words(
+    q_names: tuple[str, ...],
+    rates: Array,
+    ratios: Array,
+) -> str:
     """Rates of coordinates as "'elbow' +0.89, 'wrist' -0.45": those whose joints go by more than
     0.1, the fastest joint first.
     """

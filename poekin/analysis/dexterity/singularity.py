@@ -274,7 +274,13 @@ def _default_part(chain: Chain) -> Part:
     return "pose"
 
 
-def _with_lost_motions(U: Array, s: Array, J: Array, H: Array, g: int) -> Array:
+def _with_lost_motions(
+    U: Array,
+    s: Array,
+    J: Array,
+    H: Array,
+    g: int,
+) -> Array:
     """U with the motions that come back first to first order, where J has lost some of g for good.
 
     The left null space of J has those and others that the arm never has. Its block of dJ/dq_j

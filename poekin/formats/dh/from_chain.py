@@ -163,7 +163,8 @@ def from_chain(
         walk = _Walk(chain)
         table = walk.table(convention)
     lengths = [0.0, *np.abs(table.d).tolist(), *np.abs(table.a).tolist()]
-    bound = 20 * ROUNDOFF * (len(table) + 1) * (1 + max(lengths) / chain.reach)
+    longest = max(lengths) / chain.reach
+    bound = 20 * ROUNDOFF * (len(table) + 1) * (1 + longest)
     if walk.dropped:
         # A joint that turns about an axis off by delta turns what is behind it by at most 2 delta
         # more or less, and moves the tool by that times its distance: the lengths behind, and the
@@ -213,9 +214,8 @@ class _Walk:
             z2, p2 = self._axis(i + 1, near)
             normal, z2 = self._normal(i, near, z, p2, z2, x)
             self.turns.append(_turn(x, normal.x, z, subtract(normal.foot, o)))
-            self.normals.append(
-                (float(normal.a), math.atan2(float(normal.sine), float(normal.cosine)))
-            )
+            alpha = math.atan2(float(normal.sine), float(normal.cosine))
+            self.normals.append((float(normal.a), alpha))
             x = normal.x
             z = z2
             o = add(normal.foot, scale(normal.a, normal.x))
@@ -234,7 +234,8 @@ class _Walk:
 
     def _axis(self, i: int, origin: Vector) -> tuple[Vector, Vector]:
         """Direction and a point of axis i, nearest to `origin`; a prismatic one passes through it."""
-        return axis_near(self.chain.screws[i], self.chain.kinds[i] == "prismatic", origin)
+        slides = self.chain.kinds[i] == "prismatic"
+        return axis_near(self.chain.screws[i], slides, origin)
 
     def _normal(
         self,
@@ -302,15 +303,23 @@ class _Walk:
             )
             for i, ((theta, d), (a, alpha)) in enumerate(zip(self.turns, links, strict=True))
         ]
-        return Table(convention, rows, base=_pose(*self.base), tool=self._tool(), name=chain.tip)
+        return Table(
+            convention,
+            rows,
+            base=_pose(*self.base),
+            tool=self._tool(),
+            name=chain.tip,
+        )
 
     def _tool(self) -> Array:
         """F^-1 M with the last frame F."""
         x, z, o = self.last
         *columns, p = map(exact, self.chain.home[:3].T)
         T = np.eye(4)
-        for row, axis in enumerate((x, cross(z, x), z)):
-            for column, values in enumerate((*columns, subtract(p, o))):
+        axes = (x, cross(z, x), z)
+        columns.append(subtract(p, o))
+        for row, axis in enumerate(axes):
+            for column, values in enumerate(columns):
                 T[row, column] = float(dot(axis, values))
         return T
 
@@ -328,24 +337,37 @@ def _limits(chain: Chain) -> list[Interval]:
         lower, upper = UNBOUNDED
         if len(ks) == 1:
             k = ks[0]
-            lower, upper = sorted(float(row[k] * x) + shift for x in chain.limits[k])
+            ends = (float(row[k] * x) + shift for x in chain.limits[k])
+            lower, upper = sorted(ends)
         found.append((lower, upper))
     return found
 
 
-def _turn(x: Vector, x2: Vector, z: Vector, along: Vector) -> tuple[float, float]:
+def _turn(
+    x: Vector,
+    x2: Vector,
+    z: Vector,
+    along: Vector,
+) -> tuple[float, float]:
     """Angle from x to x2 about z, and how far along z."""
     sine = dot(cross(x, x2), z)
-    angle = math.atan2(float(sine), float(dot(x, x2)))
+    cosine = dot(x, x2)
+    angle = math.atan2(float(sine), float(cosine))
     return angle, float(dot(along, z))
 
 
 def _pose(x: Vector, z: Vector, o: Vector) -> Array:
-    columns = [[float(value) for value in axis] for axis in (x, cross(z, x), z, o)]
+    vectors = (x, cross(z, x), z, o)
+    columns = [[float(value) for value in vector] for vector in vectors]
     return se3.pose(np.transpose(columns[:3]), columns[3])
 
 
-def _error(chain: Chain, table: Table, samples: int, seed: int) -> float:
+def _error(
+    chain: Chain,
+    table: Table,
+    samples: int,
+    seed: int,
+) -> float:
     """Largest pose error over a turn of each revolute joint and 1 m of each prismatic one."""
     joints = Chain.from_space(chain.screws, chain.home, joint_names=chain.joint_names)
     x = joints.random(seed, samples)

@@ -141,7 +141,11 @@ def make_text(table: Table, ending: str) -> str:
     return _reader(ending, ending, _WRITERS)(table)
 
 
-def _reader(name: str, ending: str, known: dict[str, Callable]) -> Callable:
+def _reader(
+    name: str,
+    ending: str,
+    known: dict[str, Callable],
+) -> Callable:
     if ending.lower() not in known:
         raise InputError(
             f"{escape_unprintable(name, 400)}: expected a file ending in .toml or .csv"

@@ -87,7 +87,12 @@ def to_chain(table: Table) -> Chain:
     )
 
 
-def _link(theta: float, d: float, a: float, alpha: float) -> tuple[float, ...]:
+def _link(
+    theta: float,
+    d: float,
+    a: float,
+    alpha: float,
+) -> tuple[float, ...]:
     turn = math.sin(theta), math.cos(theta)
     twist = math.sin(alpha), math.cos(alpha)
     return dh.link(*turn, d, a, *twist)

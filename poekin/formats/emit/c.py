@@ -142,7 +142,14 @@ def c(
 class _Function:
     """The C of one task: its angles, its statements, and both together."""
 
-    def __init__(self, word: str, real: str, literal: WriteNumber, task: Task, dof: int) -> None:
+    def __init__(
+        self,
+        word: str,
+        real: str,
+        literal: WriteNumber,
+        task: Task,
+        dof: int,
+    ) -> None:
         self.task = task
         self.real = real
         self.literal = literal
@@ -224,7 +231,10 @@ class _Function:
             f"    {self.name}_sincos(s, c, q{results});",
         ]
 
-    def _locals(self, pairs: Iterable[tuple[str, str]]) -> list[str]:
+    def _locals(
+        self,
+        pairs: Iterable[tuple[str, str]],
+    ) -> list[str]:
         return [f"    const {self.real} {name} = {text};" for name, text in pairs]
 
 
@@ -245,7 +255,11 @@ extern "C" {{
 """
 
 
-def _header(word: str, lines: list[str], functions: list[_Function]) -> str:
+def _header(
+    word: str,
+    lines: list[str],
+    functions: list[_Function],
+) -> str:
     declarations = "\n".join(function.declared() for function in functions)
     guard = f"{word.upper()}_H_INCLUDED"
     return _HEADER.format(comment=_comment(lines), guard=guard, declarations=declarations)

@@ -11,7 +11,12 @@ from .messages import Task, angle_lines, compile_checked, header_lines, made_by,
 from .statements import Statements, by_outputs, double, statements
 
 
-def python(chain: Arm, frame: AnyFrame = REQUIRED, *, origin: str = "") -> str:
+def python(
+    chain: Arm,
+    frame: AnyFrame = REQUIRED,
+    *,
+    origin: str = "",
+) -> str:
     """Python module with a chain's pose and Jacobian: straight-line, without imports.
 
     Parameters

@@ -26,7 +26,11 @@ class Vectors(NamedTuple):
     tolerance: float
 
 
-def vectors(arm: CompiledChain, frame: AnyFrame, kind: type[np.floating]) -> Vectors:
+def vectors(
+    arm: CompiledChain,
+    frame: AnyFrame,
+    kind: type[np.floating],
+) -> Vectors:
     """Test vectors at coordinates that numbers of that kind hold exactly: zero, and seven within
     half a turn (or 1 m).
 
@@ -35,8 +39,10 @@ def vectors(arm: CompiledChain, frame: AnyFrame, kind: type[np.floating]) -> Vec
     which are rounded too.
     """
     chain = arm.chain
-    size = np.where([chain.is_angle(k) for k in range(chain.dof)], np.pi, 1.0)
-    q = np.random.default_rng(1994).uniform(-size, size, (COUNT, chain.dof))
+    angles = [chain.is_angle(k) for k in range(chain.dof)]
+    size = np.where(angles, np.pi, 1.0)
+    rng = np.random.default_rng(1994)
+    q = rng.uniform(-size, size, (COUNT, chain.dof))
     q[0] = 0.0
     q = q.astype(kind).astype(float)
     if frame in ("space", "body", "hybrid"):
@@ -45,7 +51,9 @@ def vectors(arm: CompiledChain, frame: AnyFrame, kind: type[np.floating]) -> Vec
         k, T_k = jacobian_frame(arm, frame)
         T, J = chain.fk_jacobian(q, k)
         J = se3.adjoint(se3.inverse(T_k)) @ J
-    x = np.abs(q @ chain.coupling.T + chain.offset).sum(axis=1).max()
+    moved = np.abs(q @ chain.coupling.T + chain.offset)
+    x = moved.sum(axis=1).max()
     roundoff = float(np.finfo(kind).eps) / 2
     steps = 8 * (len(chain.kinds) + 1) + 4 * float(x)
-    return Vectors(q, T, J, 2 * roundoff * steps * chain.reach)
+    tolerance = 2 * roundoff * steps * chain.reach
+    return Vectors(q, T, J, tolerance)

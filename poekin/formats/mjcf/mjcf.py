@@ -119,7 +119,12 @@ def is_mjcf(path: FilePath) -> bool:
     return xml.parse(xml.read_bytes(path), os.fsdecode(path), tell=False).tag == "mujoco"
 
 
-def _read(data: str | bytes, name: str, parse_spec: Callable[[Any], Any], path: str = "") -> Robot:
+def _read(
+    data: str | bytes,
+    name: str,
+    parse_spec: Callable[[Any], Any],
+    path: str = "",
+) -> Robot:
     root = xml.parse(data, name)
     source = Source(name)
     if root.tag != "mujoco":
@@ -214,7 +219,11 @@ def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
     return other
 
 
-def _poses(places: np.ndarray, quaternions: np.ndarray, mujoco: ModuleType) -> np.ndarray:
+def _poses(
+    places: np.ndarray,
+    quaternions: np.ndarray,
+    mujoco: ModuleType,
+) -> np.ndarray:
     """Poses (N, 4, 4) [m] of places (N, 3) and unit quaternions (N, 4), w first."""
     R = np.empty((len(places), 9))
     for row, quaternion in zip(R, quaternions, strict=True):

@@ -49,7 +49,12 @@ class _Opened(NamedTuple):
     above: tuple[str, ...]
 
 
-def look_through(root: xml.Element, source: Source, folder: str, path: str = "") -> None:
+def look_through(
+    root: xml.Element,
+    source: Source,
+    folder: str,
+    path: str = "",
+) -> None:
     """Refuse what MuJoCo must not be given.
 
     Parameters: root <mujoco> of a document; source, what to call it; folder, in which files are

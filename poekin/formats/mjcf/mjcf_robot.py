@@ -103,7 +103,12 @@ class ModelReader:
         ]
         return Robot(name, self.order, self.found, source), self.warnings
 
-    def _site(self, site: str, parent: str, T: np.ndarray) -> None:
+    def _site(
+        self,
+        site: str,
+        parent: str,
+        T: np.ndarray,
+    ) -> None:
         """The link of a site, fixed to that of its body."""
         wanted = site
         if site in self.taken["link"]:
@@ -112,7 +117,12 @@ class ModelReader:
         self.order.append(link)
         self._fix(parent, link, T)
 
-    def _fix(self, parent: str, link: str, T: np.ndarray) -> None:
+    def _fix(
+        self,
+        parent: str,
+        link: str,
+        T: np.ndarray,
+    ) -> None:
         """The fixed joint from a link to another one."""
         name = self.free("joint", f"{link}_fixed")
         self.found.append(Joint(name, "fixed", parent, link, T))
@@ -231,7 +241,13 @@ class ModelReader:
         """Coordinate of joint j in MuJoCo's reference configuration qpos0."""
         return float(self.model.qpos0[self.model.jnt_qposadr[j]])
 
-    def _refusal(self, y: int, x: int, a: list[float], masters: dict[int, int]) -> str:
+    def _refusal(
+        self,
+        y: int,
+        x: int,
+        a: list[float],
+        masters: dict[int, int],
+    ) -> str:
         """Reason why joint y cannot mimic joint x by the polynomial a; none where it can."""
         if any(a[2:]):
             return "whose polynomial is not linear"
@@ -251,7 +267,10 @@ def _below_mocap(model: Any) -> set[int]:
     return gone
 
 
-def _ancestry(masters: dict[int, int], joint: int) -> set[int]:
+def _ancestry(
+    masters: dict[int, int],
+    joint: int,
+) -> set[int]:
     """Joint, its master, the master's own master, and so on."""
     line = {joint}
     while joint in masters:

@@ -151,7 +151,13 @@ class _Tree:
             name = free_name(f"{own}_joint", self.used)
             self.fixed.append(Joint(name, "fixed", parent, own, before @ last))
 
-    def _add_joint(self, step: Step, parent: str, child: str, origin: Array) -> None:
+    def _add_joint(
+        self,
+        step: Step,
+        parent: str,
+        child: str,
+        origin: Array,
+    ) -> None:
         coordinate = f"q{step.coordinate}"
         name = free_name(coordinate, self.used)
         mimic = None if name == coordinate else Mimic(coordinate)
@@ -169,7 +175,10 @@ class _Tree:
         self.moving.append((step.coordinate, joint))
 
 
-def _steps(items: list[Any], what: str) -> tuple[list[Step], Array]:
+def _steps(
+    items: list[Any],
+    what: str,
+) -> tuple[list[Step], Array]:
     """The joints of a sequence, and the constant pose behind the last one."""
     steps: list[Step] = []
     T = np.eye(4)

@@ -12,7 +12,11 @@ from ...model.joint import JointKind
 from .attributes import has
 
 _PREFIX = "JointModel"
-_UNIT = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
+_UNIT = {
+    "X": (1.0, 0.0, 0.0),
+    "Y": (0.0, 1.0, 0.0),
+    "Z": (0.0, 0.0, 1.0),
+}
 _X, _Y, _Z = _UNIT.values()
 # Joints of several degrees of freedom that are elementary motions one after the other, with the
 # axes in their order.
@@ -71,13 +75,15 @@ def motions(joint: Any, name: str) -> list[Motion]:
     if kind in _SERIES:
         return [Motion(here, single, axis) for single, axis in _SERIES[kind]]
     if kind == "Universal":
-        return [Motion(here, "revolute", _three(axis)) for axis in (bare.axis1, bare.axis2)]
+        axes = (bare.axis1, bare.axis2)
+        return [Motion(here, "revolute", _three(axis)) for axis in axes]
     if kind == "Composite":
         parts = []
         for placement, part in zip(bare.jointPlacements, bare.joints, strict=True):
             inner = motions(part, name)
             for first in inner[:1]:
-                inner[0] = first._replace(origin=placement.homogeneous @ first.origin)
+                origin = placement.homogeneous @ first.origin
+                inner[0] = first._replace(origin=origin)
             parts += inner
         return parts
     pitch = float(getattr(bare, "pitch", 0.0))
@@ -95,7 +101,12 @@ def motions(joint: Any, name: str) -> list[Motion]:
     )
 
 
-def _by_subspace(joint: Any, bare: Any, name: str, kind: JointKind | None) -> Motion:
+def _by_subspace(
+    joint: Any,
+    bare: Any,
+    name: str,
+    kind: JointKind | None,
+) -> Motion:
     """Motion of a joint whose axis stands only in its constant motion subspace S = (v; omega)."""
     scaling = float(getattr(bare, "scaling", 1.0))
     S = np.asarray(joint.createData().S, dtype=float).ravel()
@@ -108,8 +119,10 @@ def _by_subspace(joint: Any, bare: Any, name: str, kind: JointKind | None) -> Mo
             message += " of multiplier 0"
         raise ModelError(message)
     if S[3:].any():
-        return Motion(np.eye(4), kind or "revolute", _three(S[3:] / scaling))
-    return Motion(np.eye(4), kind or "prismatic", _three(S[:3] / scaling))
+        omega = _three(S[3:] / scaling)
+        return Motion(np.eye(4), kind or "revolute", omega)
+    v = _three(S[:3] / scaling)
+    return Motion(np.eye(4), kind or "prismatic", v)
 
 
 def _three(axis: Any) -> tuple[float, ...]:

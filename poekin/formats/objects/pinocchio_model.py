@@ -104,17 +104,19 @@ def make_robot(model: Any) -> Robot:
         )
         joints += _moving(model, j, place.link, origin, holders[j], taken, used, unusable)
     # The frames of fixed joints first: their names are joints' names already.
-    hanging = [i for i in range(len(frames)) if i not in own.values() and i not in bodies.values()]
+    of_joints = {*own.values(), *bodies.values()}
+    hanging = [i for i in range(len(frames)) if i not in of_joints]
     for i in sorted(hanging, key=lambda i: frames[i].kind != "FIXED_JOINT"):
         place = above(frames[i].joint, i)
         name = free_name(frames[i].name, used)
-        joints.append(
-            Joint(name, "fixed", place.link, links[i], se3.inverse(place.pose) @ frames[i].pose)
-        )
+        origin = se3.inverse(place.pose) @ frames[i].pose
+        joints.append(Joint(name, "fixed", place.link, links[i], origin))
     if unusable:
         warn(f"joints without usable limits are taken as unlimited: {', '.join(unusable)}")
-    every = [holders[0], *links, *holders, *(joint.child for joint in joints)]
-    return Robot(str(getattr(model, "name", "") or "robot"), dict.fromkeys(every), joints)
+    children = (joint.child for joint in joints)
+    every = [holders[0], *links, *holders, *children]
+    called = str(getattr(model, "name", "") or "robot")
+    return Robot(called, dict.fromkeys(every), joints)
 
 
 def _frame(frame: Any, i: int) -> Frame:
@@ -127,10 +129,14 @@ def _frame(frame: Any, i: int) -> Frame:
     above = int(frame.parentFrame)
     if not 0 <= above < i:
         above = i
-    return Frame(str(frame.name) or f"frame{i}", kind, int(frame.parentJoint), pose, above)
+    name = str(frame.name) or f"frame{i}"
+    return Frame(name, kind, int(frame.parentJoint), pose, above)
 
 
-def _own_frames(frames: list[Frame], names: list[str]) -> dict[int, int]:
+def _own_frames(
+    frames: list[Frame],
+    names: list[str],
+) -> dict[int, int]:
     """Numbers of the joints' own frames, in their very places; of the universe too."""
     own: dict[int, int] = {}
     for i, frame in enumerate(frames):
@@ -141,7 +147,10 @@ def _own_frames(frames: list[Frame], names: list[str]) -> dict[int, int]:
     return own
 
 
-def _bodies(frames: list[Frame], own: set[int]) -> dict[int, int]:
+def _bodies(
+    frames: list[Frame],
+    own: set[int],
+) -> dict[int, int]:
     """Numbers of the BODY frames that are joints' child links: the only ones in their places."""
     on: dict[int, list[int]] = {}
     for i, frame in enumerate(frames):
@@ -162,7 +171,8 @@ def _link_names(
     """Link of each frame, link of each joint, and all names taken; BODY frames keep theirs first."""
     taken: set[str] = set()
     links = [""] * len(frames)
-    for i in sorted(range(len(frames)), key=lambda i: frames[i].kind != "BODY"):
+    bodies_first = sorted(range(len(frames)), key=lambda i: frames[i].kind != "BODY")
+    for i in bodies_first:
         if i not in bodies:
             links[i] = free_name(frames[i].name, taken)
     for i, body in bodies.items():
@@ -198,7 +208,8 @@ def _moving(
         end = child if k == len(parts) - 1 else free_name(numbered, taken)
         limits = UNBOUNDED
         if mimic is None and part.kind in _LIMITED:
-            limits = _limits(model, int(joint.idx_q) + k, called, unusable)
+            coordinate = int(joint.idx_q) + k
+            limits = _limits(model, coordinate, called, unusable)
         pose = origin @ part.origin
         joints.append(
             Joint(
@@ -222,12 +233,19 @@ def _mimic(model: Any, j: int, joint: Any) -> Mimic | None:
     if joint_type(joint) != "Mimic":
         return None
     bare = extracted(joint)
-    pairs = zip(map(int, model.mimicking_joints), map(int, model.mimicked_joints), strict=True)
-    masters = dict(pairs)
-    return Mimic(str(model.names[masters[j]]), float(bare.scaling), float(bare.offset))
+    mimicking = map(int, model.mimicking_joints)
+    mimicked = map(int, model.mimicked_joints)
+    masters = dict(zip(mimicking, mimicked, strict=True))
+    master = str(model.names[masters[j]])
+    return Mimic(master, float(bare.scaling), float(bare.offset))
 
 
-def _limits(model: Any, k: int, name: str, unusable: list[str]) -> Interval:
+def _limits(
+    model: Any,
+    k: int,
+    name: str,
+    unusable: list[str],
+) -> Interval:
     """Bounds of coordinate k of the model."""
     lower = float(model.lowerPositionLimit[k])
     upper = float(model.upperPositionLimit[k])

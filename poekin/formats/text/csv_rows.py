@@ -195,7 +195,11 @@ def _rows(
     return np.array(values).reshape(len(numbers), len(chosen)), np.array(numbers, int)
 
 
-def text(header: Sequence[str], rows: np.ndarray, progress: Progress | None = None) -> str:
+def text(
+    header: Sequence[str],
+    rows: np.ndarray,
+    progress: Progress | None = None,
+) -> str:
     """CSV of a header and rows (N, k); every number in the shortest form that reads back as the
     same float.
     """

@@ -48,10 +48,16 @@ def columns(format: Any, quaternion: Any = None) -> tuple[str, ...]:
         raise InputError(
             f"quaternion: the format 7 needs the order of its quaternion, {' or '.join(ORDERS)}; {asked}"
         )
-    return ("x", "y", "z", *(f"q{letter}" for letter in quaternion))
+    parts = (f"q{letter}" for letter in quaternion)
+    return ("x", "y", "z", *parts)
 
 
-def to_poses(rows: Array, format: str, quaternion: str | None, where: Any) -> Array:
+def to_poses(
+    rows: Array,
+    format: str,
+    quaternion: str | None,
+    where: Any,
+) -> Array:
     """T (N, 4, 4) of rows (N, k). A row that is not finite gives NaN, and no error.
 
     where(i): how messages call row i. Raises: PoseError, with the row, for what is no pose: a
@@ -71,10 +77,12 @@ def to_poses(rows: Array, format: str, quaternion: str | None, where: Any) -> Ar
             raise PoseError(
                 f"{where(i)}: the quaternion's length is {size[i]:.6g}, expected 1 within {NORM:g}"
             )
-        T[good] = se3.pose(_rotation(Q[good] / size[good, None]), rows[good, :3])
+        R = _rotation(Q[good] / size[good, None])
+        T[good] = se3.pose(R, rows[good, :3])
         return T
     T[good] = np.eye(4)
-    T[good, : int(format) // 4] = rows[good].reshape(-1, int(format) // 4, 4)
+    given = int(format) // 4
+    T[good, :given] = rows[good].reshape(-1, given, 4)
     try:
         return poses(T)
     except PoekinError:
@@ -83,22 +91,29 @@ def to_poses(rows: Array, format: str, quaternion: str | None, where: Any) -> Ar
         raise
 
 
-def to_rows(T: Array, format: str, quaternion: str | None = None) -> Array:
+def to_rows(
+    T: Array,
+    format: str,
+    quaternion: str | None = None,
+) -> Array:
     """Rows (N, k) of poses (N, 4, 4); of the two quaternions of a rotation the one with w >= 0."""
     columns(format, quaternion)
     if format != "7":
-        return T[:, : int(format) // 4].reshape(len(T), int(format))
+        size = int(format)
+        return T[:, : size // 4].reshape(len(T), size)
     Q = quaternion_wxyz(T[:, :3, :3])
     if quaternion == "xyzw":
         Q = Q[:, [1, 2, 3, 0]]
-    return np.concatenate([T[:, :3, 3], Q], axis=1)
+    p = T[:, :3, 3]
+    return np.concatenate([p, Q], axis=1)
 
 
 def _rotation(Q: Array) -> Array:
     """R of unit quaternions (w, x, y, z), by the rotation vector: 2 atan2(|v|, w) about v."""
     size = np.linalg.norm(Q[:, 1:], axis=1, keepdims=True)
     angle = 2 * np.arctan2(size, Q[:, :1])
-    ratio = np.divide(angle, size, out=np.full_like(size, 2.0), where=size > 0)
+    ratio = np.full_like(size, 2.0)
+    np.divide(angle, size, out=ratio, where=size > 0)
     return exp_of_vectors(ratio * Q[:, 1:])
 
 

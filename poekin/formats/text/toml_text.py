@@ -112,23 +112,40 @@ class Keys:
             raise ModelError(f"{self.place}: {escape_unprintable(key, 80)} is missing")
         return self.data[key]
 
-    def table(self, key: str, known: Iterable[str] | None = None) -> Keys:
+    def table(
+        self,
+        key: str,
+        known: Iterable[str] | None = None,
+    ) -> Keys:
         """The table of that name."""
         return self._table(self.value(key), key, known)
 
-    def tables(self, key: str, known: Sequence[str]) -> list[Keys]:
+    def tables(
+        self,
+        key: str,
+        known: Sequence[str],
+    ) -> list[Keys]:
         """The tables in a list, none where the key is missing."""
         values = self.data.get(key, [])
         if not isinstance(values, list):
             raise self.fault(key, f"expected [[{key}]] tables, got {safe_repr(values)}")
         return [self._table(value, f"{key} {i + 1}", known) for i, value in enumerate(values)]
 
-    def _table(self, value: Any, key: str, known: Iterable[str] | None) -> Keys:
+    def _table(
+        self,
+        value: Any,
+        key: str,
+        known: Iterable[str] | None,
+    ) -> Keys:
         if not isinstance(value, dict):
             raise self.fault(key, f"expected a table, got {safe_repr(value)}")
         return Keys(value, f"{self.place}: {escape_unprintable(key, 80)}", known)
 
-    def text(self, key: str, among: Sequence[str] | None = None) -> str:
+    def text(
+        self,
+        key: str,
+        among: Sequence[str] | None = None,
+    ) -> str:
         """A text, of those in `among`."""
         value = self.value(key)
         if not isinstance(value, str):
@@ -159,7 +176,13 @@ class Keys:
         """A number."""
         return float(self.array(key, (), finite=finite))
 
-    def array(self, key: str, shape: tuple[int | None, ...], *, finite: bool = True) -> Array:
+    def array(
+        self,
+        key: str,
+        shape: tuple[int | None, ...],
+        *,
+        finite: bool = True,
+    ) -> Array:
         """Numbers of that shape, in lists of lists; None: any number (the first axis only)."""
         found: list[float] = []
         self._collect(key, self.value(key), shape, found)
@@ -168,7 +191,11 @@ class Keys:
             raise self.fault(key, f"expected finite numbers, got {array[~np.isfinite(array)][0]}")
         return array.reshape([len(self.value(key)) if size is None else size for size in shape])
 
-    def wholes(self, key: str, shape: tuple[int | None, ...]) -> np.ndarray:
+    def wholes(
+        self,
+        key: str,
+        shape: tuple[int | None, ...],
+    ) -> np.ndarray:
         """Whole numbers from 0 on, of that shape, as `array`."""
         array = self.array(key, shape)
         bad = (array < 0) | (array != np.floor(array)) | (array >= 2**53)
@@ -193,7 +220,12 @@ class Keys:
         else:
             found.append(_as_float(value))
 
-    def _list_fault(self, key: str, value: Any, shape: tuple[int | None, ...]) -> ModelError:
+    def _list_fault(
+        self,
+        key: str,
+        value: Any,
+        shape: tuple[int | None, ...],
+    ) -> ModelError:
         expected = "numbers"
         if shape[1:]:
             expected = "lists"

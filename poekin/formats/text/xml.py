@@ -109,7 +109,12 @@ def read_text(path: FilePath, most: int = MAX_BYTES) -> tuple[str, str]:
         raise FileError(f"{place}: not UTF-8 at byte {fault.start}") from fault
 
 
-def parse(data: str | bytes, name: str, *, tell: bool = True) -> Element:
+def parse(
+    data: str | bytes,
+    name: str,
+    *,
+    tell: bool = True,
+) -> Element:
     """Root element of an XML document.
 
     Parameters: data, the document; name, what to call it in messages; tell, whether to warn.
@@ -168,7 +173,10 @@ def _bounded(content: bytes, source: Source) -> bytes:
     return content
 
 
-def _parsed(content: bytes, encoding: str | None) -> tuple[Element, list[Any]]:
+def _parsed(
+    content: bytes,
+    encoding: str | None,
+) -> tuple[Element, list[Any]]:
     """Root element, and the slips that were passed over. Raises: what libxml2 or expat says of the
     text.
     """

@@ -22,7 +22,12 @@ class Fields:
 
     __slots__ = ("_children", "element", "inside", "source")
 
-    def __init__(self, element: Element, source: Source, inside: Fields | None = None) -> None:
+    def __init__(
+        self,
+        element: Element,
+        source: Source,
+        inside: Fields | None = None,
+    ) -> None:
         self.element = element
         self.source = source
         self.inside = inside
@@ -84,7 +89,12 @@ class Fields:
         space, bracket, _ = self.element.tag.rpartition("}")
         return self._children.get(space + bracket + tag, [])
 
-    def number(self, attribute: str, *, finite: bool = True) -> float | None:
+    def number(
+        self,
+        attribute: str,
+        *,
+        finite: bool = True,
+    ) -> float | None:
         """Number, never NaN, infinite only if not `finite`; None where the attribute is missing."""
         text = self.element.get(attribute)
         if text is None:
@@ -105,7 +115,11 @@ class Fields:
         x, y, z = values
         return x, y, z
 
-    def numbers(self, attribute: str, count: Literal[3, 4]) -> list[float] | None:
+    def numbers(
+        self,
+        attribute: str,
+        count: Literal[3, 4],
+    ) -> list[float] | None:
         """As many finite numbers apart by blanks, or None where the attribute is missing."""
         text = self.element.get(attribute)
         if text is None:

@@ -86,7 +86,12 @@ def add_deltas(
     return Table(table.convention, rows, base=table.base, tool=table.tool, name=table.name)
 
 
-def from_dh(table: Table, *, nominal: Table, hash: str = "") -> FactoryCalibration:
+def from_dh(
+    table: Table,
+    *,
+    nominal: Table,
+    hash: str = "",
+) -> FactoryCalibration:
     """Calibration of an arm from its own DH table, with link frames near the nominal ones.
 
     Of two nearly parallel axes DH puts the frames where their common normal is, hundreds of metres
@@ -182,7 +187,12 @@ def _six(table: Table) -> None:
         )
 
 
-def _warn_if_far(before: dict, after: dict, table: Table, nominal: Table) -> None:
+def _warn_if_far(
+    before: dict,
+    after: dict,
+    table: Table,
+    nominal: Table,
+) -> None:
     moved = {}
     for link, T in before.items():
         moved[link] = float(np.linalg.norm(after[link][:3, 3] - T[:3, 3]))

@@ -194,7 +194,11 @@ def _pose(
     return se3.pose(R, (x, y, z))
 
 
-def _number(value: yaml_text.MappingNode | yaml_text.TextNode, what: str, place: str) -> float:
+def _number(
+    value: yaml_text.MappingNode | yaml_text.TextNode,
+    what: str,
+    place: str,
+) -> float:
     text = "more keys"
     if isinstance(value, yaml_text.TextNode):
         text = value.text

@@ -137,7 +137,10 @@ class Outcome(Result):
             }
         return {key: plain(value) for key, value in found.items()}
 
-    def summary(self, before: Mapping[str, str] = MappingProxyType({})) -> str:
+    def summary(
+        self,
+        before: Mapping[str, str] = MappingProxyType({}),
+    ) -> str:
         """Outcome in a few lines of text. Raises: nothing.
 
         Parameters

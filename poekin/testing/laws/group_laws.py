@@ -49,7 +49,8 @@ def hat_and_vee_are_inverse(
     """
     X = group.hat(xi)
     wrong = np.abs(X - exact.rounded(exact.hat(xi))).max()
-    return [(size(group.vee(X) - xi), 0.0), (wrong, 0.0)]
+    missed = size(group.vee(X) - xi)
+    return [(missed, 0.0), (wrong, 0.0)]
 
 
 @checked()
@@ -83,7 +84,12 @@ def exp_lands_in_the_group(
     last = size(X[3:] - np.eye(len(X))[3:])
     bound = 12 * UNIT * (1 + 1.5 * angle(xi))
     defect = size(R.T @ R - np.eye(3))
-    return [(defect, bound), (abs(np.linalg.det(R) - 1), bound), (last, 0.0)]
+    volume = abs(np.linalg.det(R) - 1)
+    return [
+        (defect, bound),
+        (volume, bound),
+        (last, 0.0),
+    ]
 
 
 @checked()
@@ -115,7 +121,11 @@ def identity_is_neutral(
     identity = np.eye(len(X))
     unit = group.exp(np.zeros(group.size))
     moved = max(size(unit @ X - X), size(X @ unit - X))
-    return [(size(unit - identity), 0.0), (size(group.log(identity)), 0.0), (moved, 0.0)]
+    return [
+        (size(unit - identity), 0.0),
+        (size(group.log(identity)), 0.0),
+        (moved, 0.0),
+    ]
 
 
 @checked()
@@ -147,7 +157,9 @@ def inverse_undoes(
     Y = group.inverse(X)
     identity = np.eye(len(X))
     bounds = (3.0, 3 * shift(X))
-    return of_elements(X @ Y, identity, *bounds) + of_elements(Y @ X, identity, *bounds)
+    behind = of_elements(X @ Y, identity, *bounds)
+    before = of_elements(Y @ X, identity, *bounds)
+    return behind + before
 
 
 @checked("exp of minus is the inverse")
@@ -177,7 +189,9 @@ def exp_of_minus_is_inverse(
         If an error exceeds its bound.
     """
     extent = 1 + angle(xi)
-    return of_elements(group.exp(-xi), group.inverse(group.exp(xi)), extent, extent * length(xi))
+    back = group.exp(-xi)
+    inverse = group.inverse(group.exp(xi))
+    return of_elements(back, inverse, extent, extent * length(xi))
 
 
 @checked()
@@ -254,7 +268,8 @@ def products_associate(
     left = group.exp(group.log((X @ Y) @ Z))
     right = group.exp(group.log(X @ (Y @ Z)))
     extent = 1 + sum(map(angle, (xi, eta, zeta)))
-    return of_elements(left, right, 4 * extent, 8 * extent * sum(map(length, (xi, eta, zeta))))
+    lengths = sum(map(length, (xi, eta, zeta)))
+    return of_elements(left, right, 4 * extent, 8 * extent * lengths)
 
 
 @checked()
@@ -288,7 +303,9 @@ def log_undoes_exp(
     if theta > np.pi - 1e-14:
         return []
     error = group.log(group.exp(xi)) - xi
-    return of_twist(error, 24 * UNIT * max(theta, 1e-150), 64 * UNIT * length(xi))
+    angular = 24 * UNIT * max(theta, 1e-150)
+    linear = 64 * UNIT * length(xi)
+    return of_twist(error, angular, linear)
 
 
 @checked()
@@ -317,7 +334,8 @@ def exp_undoes_log(
     LawViolation
         If an error exceeds its bound.
     """
-    return of_elements(group.exp(group.log(X)), X, 3.0, 3 * shift(X))
+    back = group.exp(group.log(X))
+    return of_elements(back, X, 3.0, 3 * shift(X))
 
 
 GROUP_LAWS = (

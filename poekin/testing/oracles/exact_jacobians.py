@@ -71,7 +71,8 @@ def left_jacobian_inverse(xi: ArrayLike) -> np.ndarray:
     P = inverse3(J[:3, :3])
     if len(J) == 3:
         return P
-    return lower_blocks(P, -(P @ J[3:, :3] @ P))
+    corner = P @ J[3:, :3] @ P
+    return lower_blocks(P, -corner)
 
 
 def right_jacobian(xi: ArrayLike) -> np.ndarray:
@@ -127,7 +128,12 @@ def _jacobian_series(s: Any) -> list[Any]:
     # The entries of `power` grow as k θ^k, which (k+1)! soon overtakes.
     while max(map(abs, power)) * weight > least():
         sums = [total + weight * p for total, p in zip(sums, power, strict=True)]
-        power = [-s * s * power[3], power[0], power[1] - 2 * s * power[3], power[2]]
+        power = [
+            -s * s * power[3],
+            power[0],
+            power[1] - 2 * s * power[3],
+            power[2],
+        ]
         k += 1
         weight = weight / (k + 1)
     return sums

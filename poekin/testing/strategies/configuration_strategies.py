@@ -45,7 +45,8 @@ def bounds(chain: Any) -> np.ndarray:
     """
     arguments.moves(chain)
     limits = np.array(chain.limits, dtype=float)
-    return np.where(np.abs(limits) < 1e6, limits, np.array([-math.pi, math.pi]))
+    half_turns = np.array([-math.pi, math.pi])
+    return np.where(np.abs(limits) < 1e6, limits, half_turns)
 
 
 def within_limits(chain: Any) -> Arrays:
@@ -79,7 +80,11 @@ def within_limits(chain: Any) -> Arrays:
     True
     """
     pairs = bounds(chain).tolist()
-    return read(4 * len(pairs), lambda r: frozen([_inside(r, *pair) for pair in pairs]))
+
+    def configuration(r: BytesReader) -> np.ndarray:
+        return frozen([_inside(r, *pair) for pair in pairs])
+
+    return read(4 * len(pairs), configuration)
 
 
 def at_limits(chain: Any) -> Arrays:
@@ -107,9 +112,13 @@ def at_limits(chain: Any) -> Arrays:
         lower: float,
         upper: float,
     ) -> float:
-        return r.pick([lower, upper, _inside(r, lower, upper)])
+        inside = _inside(r, lower, upper)
+        return r.pick([lower, upper, inside])
 
-    return read(5 * len(pairs), lambda r: frozen([value(r, *pair) for pair in pairs]))
+    def configuration(r: BytesReader) -> np.ndarray:
+        return frozen([value(r, *pair) for pair in pairs])
+
+    return read(5 * len(pairs), configuration)
 
 
 def _inside(
@@ -155,15 +164,21 @@ def singular_cases(
 
 
 @st.composite
-def _singular_cases(draw: st.DrawFn, bounds: tuple[int, int]) -> tuple[Chain, np.ndarray]:
+def _singular_cases(
+    draw: st.DrawFn,
+    bounds: tuple[int, int],
+) -> tuple[Chain, np.ndarray]:
     n = draw(st.integers(*bounds))
-    A = [np.array(draw(screws(("revolute", "prismatic")))) for _ in range(n)]
+    joints = screws(("revolute", "prismatic"))
+    A = [np.array(draw(joints)) for _ in range(n)]
     home = draw(placements())
-    q = np.asarray(draw(coordinates(Chain.from_space(A, home))))
+    arm = Chain.from_space(A, home)
+    q = np.asarray(draw(coordinates(arm)))
     i = draw(st.integers(0, n - 2))
     j = draw(st.integers(i + 1, n - 1))
     between = np.eye(4)
     for k in range(i + 1, j):
         between = between @ se3.exp(A[k] * q[k])
-    A[j] = se3.adjoint(se3.inverse(between)) @ A[i]
+    back = se3.inverse(between)
+    A[j] = se3.adjoint(back) @ A[i]
     return Chain.from_space(A, home), frozen(q)

@@ -89,7 +89,8 @@ def robots(
     """
     least, most = arguments.counts(min_joints, max_joints)
     some = arguments.some("kinds", kinds, KINDS)
-    rows = st.lists(read(_BYTES, lambda r: _row(r, some)), min_size=least, max_size=most)
+    row = read(_BYTES, lambda r: _row(r, some))
+    rows = st.lists(row, min_size=least, max_size=most)
     return rows.map(lambda rows: _robot(rows, mimics, limits, still))
 
 
@@ -163,21 +164,22 @@ def _robot(
             joint = replace(joint, pitch=row.pitch)
         joints.append(joint)
     order = sorted(range(len(rows)), key=lambda k: rows[k].rank)
-    able = [k for k in order if joints[k].kind in ((*MOVING, "fixed") if still else MOVING)]
+    kinds = (*MOVING, "fixed") if still else MOVING
+    able = [k for k in order if joints[k].kind in kinds]
     for place, k in enumerate(able):
+        row = rows[k]
         # A joint mimics one that comes earlier in this order, so that no circle can arise.
-        if mimics and place and rows[k].follows:
-            master = joints[able[rows[k].master * place // 256]].name
-            joints[k] = replace(joints[k], mimic=Mimic(master, rows[k].multiplier, rows[k].offset))
+        if mimics and place and row.follows:
+            earlier = able[row.master * place // 256]
+            mimic = Mimic(joints[earlier].name, row.multiplier, row.offset)
+            joints[k] = replace(joints[k], mimic=mimic)
     if limits:
         joints = _limited(joints, rows, order)
-    links = [f"l{k + 1}" for k in sorted(range(len(rows)), key=lambda k: rows[k].places[0])]
+    of_links = sorted(range(len(rows)), key=lambda k: rows[k].places[0])
+    links = [f"l{k + 1}" for k in of_links]
     links.insert(rows[0].places[2] * len(links) // 256 if rows else 0, "l0")
-    return Robot(
-        "robot",
-        links,
-        [joints[k] for k in sorted(range(len(rows)), key=lambda k: rows[k].places[1])],
-    )
+    of_joints = sorted(range(len(rows)), key=lambda k: rows[k].places[1])
+    return Robot("robot", links, [joints[k] for k in of_joints])
 
 
 def _limited(
@@ -194,7 +196,8 @@ def _limited(
         joint = joints[k]
         travel = TRAVEL.get(joints[k].kind, 0.0)
         if joint.mimic is not None and joint.kind != "fixed":
-            middle = joint.mimic.multiplier * middles[joint.mimic.joint] + joint.mimic.offset
+            master = middles[joint.mimic.joint]
+            middle = joint.mimic.multiplier * master + joint.mimic.offset
             lower, upper = (
                 middle + sign * _width(x, travel)
                 for sign, x in zip((-1, 1), rows[k].margins, strict=True)
@@ -205,5 +208,6 @@ def _limited(
             middle = (lower + upper) / 2
         middles[joint.name] = middle
         if travel:
-            result[k] = replace(joint, limits=(round(lower, 3), round(upper, 3)))
+            interval = (round(lower, 3), round(upper, 3))
+            result[k] = replace(joint, limits=interval)
     return result

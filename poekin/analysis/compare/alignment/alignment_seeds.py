@@ -62,7 +62,10 @@ class _Line(NamedTuple):
     placed: Marks
 
 
-def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> PairPoses:
+def pair_poses(
+    pair: Sides,
+    joints: Iterable[tuple[int, int]],
+) -> PairPoses:
     """Poses that carry b's two axes to a's, of those pairs i < j of joints that are asked for.
 
     There is a pose for each way round that the axes can be taken.
@@ -296,7 +299,11 @@ def _line(axis: Array) -> _Line:
     return _Line(way, place(axis), placed)
 
 
-def _angle(w: Array, u: Array, v: Array) -> tuple[Array, Array]:
+def _angle(
+    w: Array,
+    u: Array,
+    v: Array,
+) -> tuple[Array, Array]:
     """The angle (..., 1) about w from u to v (..., 3), and the lesser of their squared lengths
     across w.
     """

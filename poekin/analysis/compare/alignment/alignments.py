@@ -15,7 +15,8 @@ class Rows:
     """Base of records whose fields are arrays, or records of such, with a first axis in common."""
 
     def __getitem__(self, rows: Any) -> Self:
-        return type(self)(*(field[rows] for field in vars(self).values()))
+        fields = (field[rows] for field in vars(self).values())
+        return type(self)(*fields)
 
     def __setitem__(self, rows: Any, others: Self) -> None:
         for name, field in vars(self).items():
@@ -54,7 +55,8 @@ class Alignments(Rows):
 
     def tiled(self, times: int) -> Self:
         """All alignments, one behind the other, so many times."""
-        return self[np.tile(np.arange(len(self)), times)]
+        each = np.arange(len(self))
+        return self[np.tile(each, times)]
 
     def moved(self, steps: Array) -> Self:
         """Alignments from which steps (m, 6 + n) lead: a motion of the base, changes of zero

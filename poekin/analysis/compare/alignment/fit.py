@@ -88,7 +88,12 @@ def _step(r: Array, J: Array, damping: Array) -> Array:
     return steps[..., 0]
 
 
-def _linearised(pair: Sides, at: Alignments, free: Marks, used: Marks) -> Linearised:
+def _linearised(
+    pair: Sides,
+    at: Alignments,
+    free: Marks,
+    used: Marks,
+) -> Linearised:
     """Residuals at alignments, and their derivatives by the base's pose and by the zero offsets.
 
     Those of axes that are not used and by zero offsets that are not free are 0.

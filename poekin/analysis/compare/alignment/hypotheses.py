@@ -76,7 +76,8 @@ class Hypothesis:
 
     def poses(self, b: Chain, x: Array) -> Array:
         """Poses (m, 4, 4) of b that are to be those of a at joint values x (m, n)."""
-        return self.base @ b.fk(self.directions * x + self.zeros) @ self.tool
+        q = self.directions * x + self.zeros
+        return self.base @ b.fk(q) @ self.tool
 
     @property
     def changes(self) -> Marks:
@@ -99,7 +100,8 @@ class Hypothesis:
         conventions = int(of_convention.any(axis=0).sum())
         changes = int(of_convention.sum())
         moved = int(self.moved.sum())
-        near = float(np.minimum(self.deviations, COSTS.largest_deviation).sum())
+        deviations = np.minimum(self.deviations, COSTS.largest_deviation)
+        near = float(deviations.sum())
         if moved + changes <= 1:
             alone = COSTS.one_change * (moved + changes)
             if moved and self.frames == 2:
@@ -110,10 +112,12 @@ class Hypothesis:
         weight = COSTS.conventions_start + COSTS.conventions_step * conventions
         if conventions < len(COSTS.conventions):
             weight = COSTS.conventions[conventions]
-        far = float((self.deviations[self.moved] ** 0.25).sum())
+        distances = self.deviations[self.moved] ** 0.25
+        far = float(distances.sum())
         if moved <= 1:
             far *= COSTS.distance_of_one_axis
-        return (COSTS.axis * moved + far + weight, self.frames, changes, near)
+        several = COSTS.axis * moved + far + weight
+        return (several, self.frames, changes, near)
 
 
 def make_hypotheses(pair: Sides, at: Alignments) -> list[Hypothesis]:
@@ -126,7 +130,8 @@ def make_hypotheses(pair: Sides, at: Alignments) -> list[Hypothesis]:
     b = pair.transformed(at)
     miss = b.deviations
     base = off_centre(pair, at.P)
-    tool = tool_behind(pair, pair.carriers(at)[:, -1])
+    last = pair.carriers(at)[:, -1]
+    tool = tool_behind(pair, last)
     axes = b.axes
     axes[..., 3:] -= cross(axes[..., :3], pair.a.centre)
     columns = (
@@ -151,12 +156,18 @@ def as_they_stand(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis:
 
 def tool_behind(pair: Sides, P: Array) -> Array:
     """Poses (..., 4, 4) of a's tool in b's, where b's last link is carried by poses P."""
-    return se3.inverse(off_centre(pair, P) @ pair.b.home) @ pair.a.home
+    end = off_centre(pair, P) @ pair.b.home
+    return se3.inverse(end) @ pair.a.home
 
 
-def frames_moved(pair: Sides, base: Array, tool: Array) -> NDArray[np.intp]:
+def frames_moved(
+    pair: Sides,
+    base: Array,
+    tool: Array,
+) -> NDArray[np.intp]:
     """Number (...) of the two frames that are not where they were."""
-    return (~still(np.stack([base, tool]), pair.tol)).sum(0)
+    moved = ~still(np.stack([base, tool]), pair.tol)
+    return moved.sum(0)
 
 
 def still(T: Array, tol: Tolerances) -> Marks:
@@ -169,7 +180,8 @@ def motion_sizes(T: Array) -> tuple[Array, Array]:
     """Lengths (m) and angles (rad) of motions (..., 4, 4)."""
     turns = so3.log(T[..., :3, :3])
     moved = np.linalg.norm(T[..., :3, 3], axis=-1)
-    return moved, np.linalg.norm(turns, axis=-1)
+    turned = np.linalg.norm(turns, axis=-1)
+    return moved, turned
 
 
 def off_centre(pair: Sides, P: Array) -> Array:

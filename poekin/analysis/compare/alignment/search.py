@@ -39,7 +39,11 @@ class _Start(Rows):
         return fit(pair, self.at, self.free, self.used)
 
 
-def search(a: Chain, b: Chain, tol: Tolerances) -> tuple[Hypothesis, list[Hypothesis]]:
+def search(
+    a: Chain,
+    b: Chain,
+    tol: Tolerances,
+) -> tuple[Hypothesis, list[Hypothesis]]:
     """The best reading of the difference of two chains at rest, and the others that blame one joint
     only.
     """
@@ -95,7 +99,11 @@ def agreeing(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis | None:
     return next(agree, None)
 
 
-def _rigid(pair: Sides, starts: Alignments, used: Marks | bool) -> list[Hypothesis]:
+def _rigid(
+    pair: Sides,
+    starts: Alignments,
+    used: Marks | bool,
+) -> list[Hypothesis]:
     """Readings of starts fitted to the axes in `used`, zero offsets as they are."""
     fitted = fit(pair, starts, False, used)
     return make_hypotheses(pair, fitted)

@@ -110,7 +110,10 @@ def _numbers(
     return frozen([*axis, *point, q, pitch])
 
 
-def _case(joints: list[tuple[str, Array]], home: Array) -> Case:
+def _case(
+    joints: list[tuple[str, Array]],
+    home: Array,
+) -> Case:
     return Case(
         np.concatenate([*(numbers for _, numbers in joints), home]),
         tuple(kind for kind, _ in joints),

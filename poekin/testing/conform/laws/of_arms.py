@@ -72,7 +72,8 @@ def arm(screws: Array, home: Array) -> ArmData:
     """
     n = len(screws)
     turns = np.any(screws[:, :3] != 0, axis=1)
-    reach = size(home[:3, 3]) + sum(size(v) for v in screws[turns, 3:])
+    moments = sum(size(v) for v in screws[turns, 3:])
+    reach = size(home[:3, 3]) + moments
     return ArmData(screws, home, np.eye(n), np.zeros(n), n, reach)
 
 
@@ -104,10 +105,14 @@ def error_bound(
     """
     x = exact.rounded(exact_chain.displacements(arm, q))
     turns = _turning(arm)
-    R = exact.rounded(exact.exactly(arm.home))[:3, :3]
-    angles = float(np.abs(x[turns]).sum()) + float(getattr(arm, "turned", len(x)))
+    home = exact.rounded(exact.exactly(arm.home))
+    R = home[:3, :3]
+    own = float(getattr(arm, "turned", len(x)))
+    angles = float(np.abs(x[turns]).sum()) + own
     lengths = arm.reach + float(np.abs(x[~turns]).sum())
-    return unit * (2 + len(x) + 2**0.5 * angles) + size(R @ R.T - np.eye(3)), lengths
+    angular = unit * (2 + len(x) + 2**0.5 * angles)
+    defect = size(R @ R.T - np.eye(3))
+    return angular + defect, lengths
 
 
 def fk_is_the_product_of_exponentials(
@@ -259,11 +264,13 @@ def jacobian_parts(
     parts : list of ErrorPart
         The errors, each with its scale and what floats can attain.
     """
-    truth = exact_chain.jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(frame)]
+    truths = exact_chain.jacobians(arm, exact.exactly(q))
+    truth = truths[FRAME_NAMES.index(frame)]
     error = exact.exactly(J) - truth
     angular, lengths = error_bound(arm, q, precision.unit)
     ratios = 1 + size(arm.coupling)
-    scale = 2 * lengths + float(not np.all(_turning(arm)))
+    slides = not np.all(_turning(arm))
+    scale = 2 * lengths + float(slides)
     w = max(map(norm, error[:3].T), default=0.0)
     v = max(map(norm, error[3:].T), default=0.0)
     least = ratios * angular * scale
@@ -275,4 +282,5 @@ def jacobian_parts(
 
 def _turning(arm: Any) -> np.ndarray:
     """Whether each joint turns."""
-    return np.any(exact.rounded(exact.exactly(arm.screws))[:, :3] != 0, axis=1)
+    screws = exact.rounded(exact.exactly(arm.screws))
+    return np.any(screws[:, :3] != 0, axis=1)

@@ -70,7 +70,8 @@ def exp_is_e_to_the_xi(
     """
     size = ELEMENT_SIZE.get(len(xi), 4)
     X, fault = called(exp, (size, size), xi)
-    return graded("exp is e to the xi", fault or exp_parts(xi, X, precision), at_most, xi=xi)
+    parts = fault or exp_parts(xi, X, precision)
+    return graded("exp is e to the xi", parts, at_most, xi=xi)
 
 
 def exp_parts(
@@ -106,8 +107,10 @@ def exp_parts(
     def bound() -> float:
         return precision.coarser * float(error_bounds.exp_bound(xi).linear)
 
-    parts.append(ErrorPart("t ÷ |v|", moved, v, precision.unit * v, precision, bound))
-    parts.append(ErrorPart("last row", norm(error[3]), 1.0, 0.0, precision))
+    linear = precision.unit * v
+    last = norm(error[3])
+    parts.append(ErrorPart("t ÷ |v|", moved, v, linear, precision, bound))
+    parts.append(ErrorPart("last row", last, 1.0, 0.0, precision))
     return parts
 
 
@@ -142,7 +145,8 @@ def log_is_the_principal_logarithm(
     LawViolation
         If the grade is worse than `at_most`.
     """
-    xi, fault = called(log, (TWIST_SIZE.get(len(X), 6),), X)
+    size = TWIST_SIZE.get(len(X), 6)
+    xi, fault = called(log, (size,), X)
     parts = fault or log_parts(X, xi, precision)
     return graded("log is the principal logarithm", parts, at_most, X=X)
 
@@ -170,9 +174,15 @@ def log_parts(
     """
     truth = exact.log(X)
     candidates = [_log_parts(truth, xi, X, precision)]
-    if exact.mp.pi - exact.norm(truth[:3]) < precision.coarser * error_bounds.BOTH_SIGNS:
-        candidates.append(_log_parts(error_bounds.other_sign(truth), xi, X, precision))
-    return min(candidates, key=lambda parts: max((part.grade, part.size) for part in parts))
+    short_of_pi = exact.mp.pi - exact.norm(truth[:3])
+    if short_of_pi < precision.coarser * error_bounds.BOTH_SIGNS:
+        other = error_bounds.other_sign(truth)
+        candidates.append(_log_parts(other, xi, X, precision))
+    return min(candidates, key=_worst)
+
+
+def _worst(parts: list[ErrorPart]) -> tuple[Grade, float]:
+    return max((part.grade, part.size) for part in parts)
 
 
 def _log_parts(
@@ -190,17 +200,20 @@ def _log_parts(
         least = precision.unit * theta
 
     def angular() -> float:
-        return max(precision.coarser * float(error_bounds.log_bound(truth).angular), least)
+        bound = error_bounds.log_bound(truth).angular
+        return max(precision.coarser * float(bound), least)
 
     def linear() -> float:
         return precision.coarser * float(error_bounds.log_bound(truth).linear)
 
-    parts = [ErrorPart("ω (rad)", norm(error[:3]), 1.0, least, precision, angular)]
+    turned = norm(error[:3])
+    parts = [ErrorPart("ω (rad)", turned, 1.0, least, precision, angular)]
     if len(xi) == 6:
         v = norm(truth[3:])
         scale = max(v, norm(X[:3, 3]))
         missed = norm(error[3:])
-        parts.append(ErrorPart("v ÷ |v|", missed, scale, precision.unit * v, precision, linear))
+        attainable = precision.unit * v
+        parts.append(ErrorPart("v ÷ |v|", missed, scale, attainable, precision, linear))
     return parts
 
 
@@ -238,7 +251,8 @@ def log_forgives_noise(
     w, fault = called(log, (3,), R)
     if fault:
         return graded("log forgives noise", fault, at_most, R=R)
-    error = error_bounds.log_error(w, exact.log(R), precision.coarser * error_bounds.BOTH_SIGNS)
+    near_pi = precision.coarser * error_bounds.BOTH_SIGNS
+    error = error_bounds.log_error(w, exact.log(R), near_pi)
     least = precision.coarser * NOISE_BAR / EXP_LOG_BAR
     parts = [ErrorPart("ω (rad)", error, 1.0, least, precision)]
     return graded("log forgives noise", parts, at_most, R=R)
@@ -279,7 +293,12 @@ def adjoint_is_its_matrix(
     error = exact.exactly(X) - exact.adjoint(T)
     t = norm(T[:3, 3])
     corner = norm(error[3:, :3])
-    rest = max(map(norm, (error[:3, :3], error[3:, 3:], error[:3, 3:])))
+    blocks = (
+        error[:3, :3],
+        error[3:, 3:],
+        error[:3, 3:],
+    )
+    rest = max(map(norm, blocks))
     # R is there already; of [t] R each entry is a difference of two products.
     u = precision.unit
     parts = [
@@ -312,14 +331,15 @@ def jacobian_of_exp(name: JacobianName) -> Callable[..., Verdict]:
         at_most: Grade = Grade.EXACT,
         precision: Precision = DOUBLE,
     ) -> Verdict:
-        J, fault = called(function, (len(xi), len(xi)), xi)
+        n = len(xi)
+        J, fault = called(function, (n, n), xi)
         title = f"{name.replace('_', ' ')} is attained"
         if fault:
             return graded(title, fault, at_most, xi=xi)
         diagonal, corner = jacobian_errors(J, truth(xi), xi)
         least = precision.coarser * JACOBIAN_BAR / EXP_LOG_BAR
         parts = [ErrorPart("3×3 block", diagonal, 1.0, least, precision)]
-        if len(xi) == 6:
+        if n == 6:
             parts.append(ErrorPart("Q block ÷ |v|", corner, 1.0, least, precision))
         return graded(title, parts, at_most, xi=xi)
 

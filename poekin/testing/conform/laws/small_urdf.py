@@ -63,7 +63,10 @@ class JointNumbers(NamedTuple):
     q: float
 
 
-def chain(joints: tuple[UrdfJoint, ...], order: tuple[int, ...] = ()) -> UrdfLayout:
+def chain(
+    joints: tuple[UrdfJoint, ...],
+    order: tuple[int, ...] = (),
+) -> UrdfLayout:
     """Joints one after the other, in the file in that order or another one."""
     n = len(joints)
     as_they_come = tuple(range(n))
@@ -191,7 +194,10 @@ def factors(case: Case, tip: int = TIP) -> list[np.ndarray]:
     return result
 
 
-def arm(case: Case, tip: int = TIP) -> tuple[ArmData, np.ndarray, list[str]]:
+def arm(
+    case: Case,
+    tip: int = TIP,
+) -> tuple[ArmData, np.ndarray, list[str]]:
     """The arm to the link behind a joint in exact numbers, q, and the names of its coordinates.
 
     These are those of `coordinates`, in that order, which the pose depends on.
@@ -324,7 +330,10 @@ def _values(case: Case) -> list[Any]:
     return values
 
 
-def _link(case: Case, k: int) -> tuple[list[np.ndarray], np.ndarray | None]:
+def _link(
+    case: Case,
+    k: int,
+) -> tuple[list[np.ndarray], np.ndarray | None]:
     """The twists of a joint's origin, and its screw in its own frame, with a unit axis."""
     joint = case.layout.joints[k]
     numbers = numbers_of(case)[k]

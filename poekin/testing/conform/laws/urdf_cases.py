@@ -87,7 +87,10 @@ def arms(
         rows = st.tuples(*(_row(axis, signed_angles(largest)) for _ in range(count)))
         return st.builds(make, sorts, rows)
 
-    def make(sorts: tuple[str, ...], rows: tuple[Array, ...]) -> Case:
+    def make(
+        sorts: tuple[str, ...],
+        rows: tuple[Array, ...],
+    ) -> Case:
         joints = tuple(
             UrdfJoint(kind, name, axis_written) for kind, name in zip(sorts, NAMES, strict=False)
         )

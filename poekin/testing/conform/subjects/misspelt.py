@@ -47,7 +47,8 @@ def _meant(name: str, known: Sequence[str]) -> str:
     if _words(name) in plain:
         return plain[_words(name)]
     bare = {other.replace("_", ""): other for other in known}
-    close = difflib.get_close_matches(name.lower().replace("_", ""), bare, n=1, cutoff=0.8)
+    asked = name.lower().replace("_", "")
+    close = difflib.get_close_matches(asked, bare, n=1, cutoff=0.8)
     return bare.get("".join(close), "")
 
 

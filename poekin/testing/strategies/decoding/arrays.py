@@ -60,7 +60,10 @@ def pose(R: np.ndarray, t: np.ndarray) -> np.ndarray:
     return frozen(T)
 
 
-def read(size: int, decode: Callable[[BytesReader], T]) -> st.SearchStrategy[T]:
+def read(
+    size: int,
+    decode: Callable[[BytesReader], T],
+) -> st.SearchStrategy[T]:
     """Strategy of values read off random bytes: to write strategies like these.
 
     Hypothesis spreads bytes evenly; of its numbers it draws most next to 0, and of a case made of

@@ -71,7 +71,8 @@ def axis(r: BytesReader) -> Array:
         n[1] = 10.0 ** -r.fraction(1.0, 17.0)
         n[2] = -(10.0 ** -r.fraction(1.0, 17.0))
     elif kind:
-        anywhere = np.array([r.fraction(-1.0, 1.0) for _ in range(3)])
+        shares = [r.fraction(-1.0, 1.0) for _ in range(3)]
+        anywhere = np.array(shares)
         if math.hypot(*anywhere) > 0.1:
             n = anywhere
     return np.roll(n / math.hypot(*n), place)
@@ -92,8 +93,15 @@ def turned(n: Array, by: float) -> Array:
     """The rotation (3, 3) by an angle `by` in rad about the unit vector n (3,): I + sin θ [n] + 2
     sin²(θ/2) [n]².
     """
-    N = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
-    return np.eye(3) + math.sin(by) * N + 2 * math.sin(by / 2) ** 2 * (N @ N)
+    x, y, z = n
+    rows = [
+        [0, -z, y],
+        [z, 0, -x],
+        [-y, x, 0],
+    ]
+    N = np.array(rows)
+    versine = 2 * math.sin(by / 2) ** 2
+    return np.eye(3) + math.sin(by) * N + versine * (N @ N)
 
 
 @functools.cache
