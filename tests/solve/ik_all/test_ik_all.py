@@ -90,7 +90,36 @@ def test_of_any_arm_the_known_solution_is_found_or_is_singular(data):
         turns = np.array([kind == "revolute" for kind in chain.kinds])
         d = result.solutions - q
         d[:, turns] = (d[:, turns] + np.pi) % (2 * np.pi) - np.pi
-        assert np.abs(d).max(axis=1).min(initial=np.inf) <= NEAR
+        known = np.abs(d).max(axis=1).min(initial=np.inf) <= NEAR
+        # of two solutions near each other one may be found at less than one try in a hundred: it is
+        # missing then, and said to be
+        assert known or "or one is missing" in result.summary()
+
+
+def test_where_one_of_two_near_solutions_is_missing_the_odd_number_says_so():
+    turn = np.array(
+        [
+            [0.63377431, 0.41247344, -0.65436671],
+            [-0.57494888, 0.43846255, 0.69078533],
+            [-0.49720289, -0.70713755, 0.50273827],
+        ]
+    )
+    slide = np.array(
+        [[0, -1, 0], [0.88363075, -0.46670382, 0.03720551], [-0.53920301, -0.7919606, 0.28645859]]
+    )
+    screws = [
+        screw
+        for w, v in zip(turn, slide, strict=True)
+        for screw in (pk.screw.prismatic(v), pk.screw.revolute(w, [0, 0, 0]))
+    ]
+    order = [0, 1, 2, 3, 5, 4]
+    chain = pk.Chain.from_space([screws[k] for k in order], np.eye(4))
+    q = [0.0, -2.92187381, -3.0, np.pi, 0.07421988, -1.0]
+    for min_hits, seed in ((40, 0), (40, 1), (16, 0)):
+        result = ik_all(
+            chain, chain.fk(q), limits=False, min_hits=min_hits, method="search", seed=seed
+        )
+        assert len(result.solutions) == 2 or "or one is missing" in result.summary()
 
 
 @given(st.data())
