@@ -123,10 +123,9 @@ def test_a_number_at_the_begin_of_a_line_is_told_with_the_line_that_it_joins():
 def test_two_changes_that_give_the_same_text_count_once():
     some = [m for path in SOURCES if room(path) == "groups" for m in of(path)]
     assert len({m.key for m in some}) == len(some)
-    assert (
-        len({(m.path, m.applied(SOURCES[m.path])) for m in of(names.module("formulas/defect"))})
-        == 84
-    )
+    of_defect = of(names.module("formulas/defect"))
+    assert len(of_defect) > 50
+    assert len({m.applied(SOURCES[m.path]) for m in of_defect}) == len(of_defect)
 
 
 def test_every_module_of_the_package_is_changed():

@@ -72,7 +72,10 @@ def _rotation_vector(theta, rest, axis):
 
 
 def so3(R):
-    """The rotation vector w (rad) with exp [w] = R, 0 <= |w| <= pi: Lemma 3."""
+    """The rotation vector w (rad) with exp [w] = R, 0 <= |w| <= pi: Lemma 3.
+
+    Remark 1, the sign at pi, is settled in `quaternion.parts`.
+    """
     theta, rest, axis, _ = _polar(R)
     return _rotation_vector(theta, rest, axis)
 

@@ -71,7 +71,7 @@ def _options(
     base: str,
     tip: str,
 ) -> ChainOptions:
-    """Names, limits, coupling and pitches of the joints that move between two links."""
+    """Names, limits, C and c of x = C q + c, and pitches of the joints that move between two links."""
     whole = parts.coupling
     followed = whole.coordinate[moving]
     used = list(dict.fromkeys(followed[followed >= 0].tolist()))

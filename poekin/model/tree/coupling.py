@@ -1,4 +1,6 @@
-"""Coupling: which coordinate each joint of a robot follows, and how, x = ratio q + shift."""
+"""Coupling: which coordinate each joint of a robot follows, and how, x = ratio q + shift;
+`chain_between` makes C and c of x = C q + c of it.
+"""
 
 from __future__ import annotations
 

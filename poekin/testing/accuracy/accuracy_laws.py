@@ -31,7 +31,7 @@ def exp_is_attained(
     group: Group,
     xi: Array,
 ) -> Pairs:
-    """Law: the exponential is within EXP_LOG_BAR of what float64 can attain.
+    """Law: the exponential is within EXP_LOG_BAR of what float64 can attain, judged in 60 digits.
 
     Parameters
     ----------
