@@ -29,6 +29,11 @@ def command(json: Json = False) -> None:
             progress(done, len(found), name)
             kernel.ready()
     kept = [file.stat().st_size for file in place.glob("*.kernel")]
+    if len(kept) < len(found):
+        raise FileError(
+            f"{len(found)} kernels were compiled, and {path_text(place)} keeps {len(kept)}: it cannot be written, or"
+            " POEKIN_CACHE_SIZE is too small"
+        )
     seconds = time.monotonic() - start
     if json:
         print(as_json({"kernels": len(found), "directory": str(place), "seconds": seconds}))

@@ -34,6 +34,7 @@ from . import rpy
 from .common.limits import ABSURD, UNBOUNDED, Interval, without_absurd
 from .text import pose_rows, xml
 from .text.atomic_write import FilePath
+from .text.numbers import real
 from .text.xml_reader import Fields
 
 # An axis this far off unit length is a slip of the pen, not rounding.
@@ -90,7 +91,7 @@ def read_text(
         raise ModelError(
             f"{source.place(top.line)}: expected the root element <robot>, got {quote(top.tag)}"
         )
-    for element in root:
+    for element in root.iter("*"):
         if "xacro" in element.tag:
             what = f"<xacro:{Fields(element, source).tag}> is xacro that was not processed yet, which may hold joints"
             raise ModelError(
@@ -100,7 +101,7 @@ def read_text(
     if not links:
         raise top.fault("expected at least one <link>, there is none")
     repairs = Repairs([], [], [], [], [])
-    quaternions = (top.number("version") or 1.0) >= 1.1
+    quaternions = (real(root.get("version") or "") or 1.0) >= 1.1
     elements = top.all("joint")
     joints = [_joint(fields, repairs, quaternions) for fields in elements]
     known = {joint.name for joint in joints}
@@ -173,9 +174,11 @@ def _origin(element: Fields | None, repairs: Repairs, quaternions: bool) -> Arra
         return rpy.pose(xyz, turns or _ZERO)
     if turns is not None:
         raise element.fault("either rpy or quat_xyzw expected, got both")
-    length = math.hypot(*quaternion)
-    if not length:
+    largest = max(map(abs, quaternion))
+    if not largest:
         raise element.fault("quat_xyzw must not be zero")
+    quaternion = [x / largest for x in quaternion]  # whose squares are neither 0 nor infinite
+    length = math.hypot(*quaternion)
     unit = (x / length for x in quaternion)
     row = np.array([[*xyz, *unit]])
     return pose_rows.to_poses(row, "7", "xyzw", lambda _: element.what)[0]

@@ -65,7 +65,7 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
     """
     data = xml.read_bytes(path)
     name = os.fsdecode(path)
-    root = xml.parse(data, name)  # refuses what is not safe before it is evaluated
+    root = xml.parse(data, name, tell=False)  # refuses what is not safe before it is evaluated
     values = {key: _text(key, value) for key, value in arguments.items()}
     return urdf.read_text(_evaluated(name, root.get("name"), values), f"{name} (evaluated)")
 

@@ -34,6 +34,12 @@ def test_json_says_how_many_and_where(as_json):
     assert Path(document["directory"]) == cache.usable_directory()
 
 
+def test_where_nothing_is_kept_it_is_an_error(refused, tmp_path, monkeypatch):
+    # all kernels of this process are compiled already: a new place stays empty
+    monkeypatch.setenv("POEKIN_CACHE_DIR", str(tmp_path / "new"))
+    assert f"'{tmp_path / 'new'}' keeps 0: it cannot be written" in refused("warm")
+
+
 def test_without_a_directory_that_can_be_used_nothing_is_compiled(refused, tmp_path, monkeypatch):
     for place in ("", str(tmp_path / "open")):
         monkeypatch.setenv("POEKIN_CACHE_DIR", place)

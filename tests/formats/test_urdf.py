@@ -258,6 +258,14 @@ def test_of_two_elements_the_first_counts_as_with_other_readers(first, second):
         read(more)
 
 
+@pytest.mark.parametrize("size", ["1e308", "5e-324", "1"])
+def test_a_quaternion_of_any_length_is_a_turn(size):
+    text = one_joint(f'<origin quat_xyzw="{size} {size} {size} {size}"/>{LIMIT}')
+    turned = urdf.read_text(text.replace('name="r"', 'name="r" version="1.1"'))
+    third = [[0, 0, 1], [1, 0, 0], [0, 1, 0]]
+    np.testing.assert_allclose(turned.joints[0].origin[:3, :3], third, rtol=0, atol=1e-15)
+
+
 @given(st.lists(st.floats(-2, 2), min_size=4, max_size=4).filter(lambda q: np.linalg.norm(q) > 0.1))
 def test_a_quaternion_turns_an_origin_where_the_robot_says_version_1_1(quaternion):
     values = " ".join(map(repr, quaternion))
@@ -271,7 +279,7 @@ def test_a_quaternion_turns_an_origin_where_the_robot_says_version_1_1(quaternio
         )
 
 
-@pytest.mark.parametrize("version", ["", ' version="1.0"'])
+@pytest.mark.parametrize("version", ["", ' version="1.0"', ' version="1.0.0"', ' version="abc"'])
 def test_a_quaternion_that_nobody_reads_is_told(version):
     text = one_joint(f'<origin quat_xyzw="0 0 1 0"/>{LIMIT}').replace(
         'name="r"', f'name="r"{version}'

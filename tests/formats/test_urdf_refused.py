@@ -133,6 +133,11 @@ REFUSED = {
         '<robot xmlns:x="http://ros.org/xacro"><x:macro/></robot>',
         r"^x\.urdf:1: <xacro:macro> is xacro that was not processed yet, which may hold joints: ",
     ),
+    "xacro in a joint": (
+        '<robot xmlns:x="http://www.ros.org/wiki/xacro">\n<link name="a"/><link name="b"/>\n'
+        '<joint name="j" type="fixed"><parent link="a"/><child link="b"/>\n<x:insert_block name="o"/></joint></robot>',
+        r"^x\.urdf:4: <xacro:insert_block> is xacro that was not processed yet",
+    ),
     "xacro among links": (
         '<robot xmlns:x="http://www.ros.org/wiki/xacro">\n<link name="a"/>\n<x:arm prefix="left"/></robot>',
         (

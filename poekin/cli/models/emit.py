@@ -99,7 +99,7 @@ def command(
 
 def _origin(file: str, robot: Robot) -> str:
     """The robot, and the file with its checksum where it is one."""
-    words = f"the robot {robot.name}"
+    words = f"the robot {robot.name[:80]}"
     if os.path.isfile(file):
         digest = hashlib.sha256(Path(file).read_bytes()).hexdigest()
         words += f", file {os.path.basename(file)} with the SHA-256 {digest}"

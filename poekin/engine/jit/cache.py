@@ -204,7 +204,7 @@ def write(path: Path, payload: bytes) -> None:
         os.replace(partial, path)
         cache_size.bound(path.parent, len(payload) + 32, size_limit())
     except OSError as error:
-        log_no_cache("%s cannot be written (%s)", path, error.strerror)
+        log_once("write", "%s is not kept: it cannot be written (%s)", path, error.strerror)
         if partial is not None:
             with contextlib.suppress(OSError):
                 os.unlink(partial)

@@ -17,8 +17,9 @@ _unswept: dict[Path, float] = {}
 def bound(place: Path, written: int, most: float) -> None:
     """Remove the oldest entries of a directory where there may be more than `most` bytes.
 
-    An entry is as old as its last use, and is removed after a month too. Arms take at most half of
-    the room: the code of thousands of them does not remove the kernels that every process needs.
+    An entry is as old as its last use. Arms take at most half of the room, and are removed after a
+    month too: the code of thousands of them does not remove the kernels that every process needs,
+    and those that an image came with stay however old it is.
     Parameters: written, bytes of the entry that was just written. The directory is looked through
     when this process writes its first entry there, and after each sixteenth of the bound.
     """
@@ -42,7 +43,8 @@ def _sweep(place: Path, most: float) -> None:
     arms = whole = 0
     long_ago = time.time() - MONTH
     for used, size, file in sorted(found, key=lambda one: one[0], reverse=True):
-        keep = used > long_ago
+        whole_package = file.name.endswith(".kernel") and not file.name.startswith(ARM)
+        keep = whole_package or used > long_ago
         if keep and file.name.startswith(ARM):
             arms += size
             keep = arms <= most / 2

@@ -125,7 +125,7 @@ def _read(
     parse_spec: Callable[[Any], Any],
     path: str = "",
 ) -> Robot:
-    root = xml.parse(data, name)
+    root = xml.parse(data, name, tell=False)
     source = Source(name)
     if root.tag != "mujoco":
         raise ModelError(

@@ -51,6 +51,14 @@ class _DoctypeFound(Exception):
     """Raised out of the parser at the first sign of a DTD, before it is read."""
 
 
+class _Malformed(Exception):
+    """Raised for a complaint of libxml2 that is no slip."""
+
+    def __init__(self, complaint: Any) -> None:
+        super().__init__(complaint.message)
+        self.lineno = complaint.line
+
+
 class _DoctypeTrap:
     """A parser target that lets everything pass but a document type declaration."""
 
@@ -149,7 +157,7 @@ def parse(
             f"{source.place(_doctype_line(content))}: a document type declaration (DOCTYPE) is refused: no DTD, entity"
             " or external reference is read"
         ) from None
-    except (etree.XMLSyntaxError, expat.ExpatError) as fault:
+    except (etree.XMLSyntaxError, expat.ExpatError, _Malformed) as fault:
         hint = ""
         if b"\0" in content[:1024]:
             hint = " (binary data?)"
@@ -178,18 +186,30 @@ def _parsed(
     encoding: str | None,
 ) -> tuple[Element, list[Any]]:
     """Root element, and the slips that were passed over. Raises: what libxml2 or expat says of the
-    text.
+    text; `_Malformed`.
     """
     try:
         return _read(content, encoding)[0], []
     except etree.XMLSyntaxError as fault:
         root, slips = _read(content, encoding, recover=True)
-        refused = {slip.type_name for slip in slips} - SLIPS.keys()
-        # what a prefix marks may be passed over, but xacro's may hold joints
-        if refused or any("prefix xacro " in slip.message for slip in slips):
+        for slip in slips:
+            if slip.type_name not in SLIPS:
+                raise _Malformed(slip) from None
+            # what a prefix marks may be passed over, but xacro's may hold joints
+            if "prefix xacro " in slip.message:
+                raise _Malformed(slip) from None
+        # libxml2 keeps silent of some of what stands behind its first complaint, and of xacro
+        # behind its hundredth
+        try:
+            expat.ParserCreate(encoding).Parse(content, True)
+        except (ValueError, LookupError):  # an encoding that expat does not know
             raise fault from None
-        # libxml2 keeps silent of what stands behind its first complaint
-        expat.ParserCreate(encoding).Parse(content, True)
+        if any(
+            "xacro:" in name
+            for element in root.iter("*")
+            for name in (element.tag, *element.attrib)
+        ):
+            raise fault from None
         return root, slips
 
 
@@ -204,7 +224,7 @@ def _read(
     etree.fromstring(content, etree.XMLParser(target=_DoctypeTrap(), **options))
     parser = etree.XMLParser(**options)
     root = etree.fromstring(content, parser)
-    return root, list(parser.error_log)
+    return root, [slip for slip in parser.error_log if slip.level_name != "WARNING"]
 
 
 def _told(slips: list[Any], source: Source) -> list[str]:

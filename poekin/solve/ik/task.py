@@ -88,7 +88,8 @@ def pose_errors(chain: Chain, task: Task, q: Array, T: Array) -> Array:
     targets (N, 4, 4).
     """
     errors = np.empty((len(q), 2))
-    _kernel().call(chain.kernel_table, q, T, task.code, task.axis, errors)
+    rows = np.ascontiguousarray(T)
+    _kernel().call(chain.kernel_table, q, rows, task.code, task.axis, errors)
     return errors
 
 

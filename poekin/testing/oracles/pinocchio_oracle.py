@@ -94,7 +94,7 @@ class PinocchioOracle:
             raise InputError(
                 f"text: expected a URDF itself, not where it is: Path(...).read_text(); got {safe_repr(text)}"
             )
-        root = pinocchio_urdf.plain(xml.parse(text, "<text>"))
+        root = pinocchio_urdf.plain(xml.parse(text, "<text>", tell=False))
         content = pinocchio_urdf.text_of(root)
         self.model: Any = _built(lambda: pin.buildModelFromXML(content))
         self.data: Any = self.model.createData()

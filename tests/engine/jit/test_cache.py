@@ -549,16 +549,16 @@ def test_what_is_compiled_with_other_options_is_kept_apart(session, home, monkey
     assert session.kernel() == []
 
 
-def test_entries_of_a_month_ago_are_forgotten(session, home):
-    (old,) = entries(home, "so3_exp")
-    long_ago = old.with_name(f"so3_exp-{'0' * 32}.kernel")
-    young = old.with_name(f"so3_exp-{'1' * 32}.kernel")
+def test_arms_of_a_month_ago_are_forgotten(session, home):
+    (old,) = entries(home, "arm")
+    long_ago = old.with_name(f"arm-{'0' * 32}.kernel")
+    young = old.with_name(f"arm-{'1' * 32}.kernel")
     shutil.copy2(old, young)
     old.rename(long_ago)
     os.utime(long_ago, (0, 0))
     others = set(entries(home)) - {long_ago, young}
-    session.kernel()
-    assert entries(home, "so3_exp") == sorted([old, young])
+    session.arm()
+    assert entries(home, "arm") == sorted([old, young])
     assert set(entries(home)) == others | {old, young}
 
 

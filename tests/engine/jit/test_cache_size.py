@@ -30,11 +30,14 @@ def left(place) -> set[str]:
     return {path.stem for path in place.iterdir()}
 
 
-def test_what_was_not_used_for_a_month_is_removed(tmp_path, put):
-    put("younger", 1, days=29)
-    put("older", 1, days=31)
+def test_an_arm_and_a_rest_not_used_for_a_month_are_removed_and_kernels_stay(tmp_path, put):
+    for days, age in ((29, "younger"), (31, "older")):
+        put(f"arm-{age}", 1, days)
+        put(age, 1, days)
+        put(f"rest-{age}", 1, days)
+        (tmp_path / f"rest-{age}.kernel").rename(tmp_path / f"rest-{age}.kernelx")
     cache_size.bound(tmp_path, 1, MOST)
-    assert left(tmp_path) == {"younger"}
+    assert left(tmp_path) == {"arm-younger", "younger", "older", "rest-younger"}
 
 
 def test_entries_that_just_fit_are_kept_and_the_oldest_that_does_not_is_removed(tmp_path, put):
@@ -55,9 +58,9 @@ def test_the_directory_is_looked_through_after_each_sixteenth_of_the_bound(tmp_p
     cache_size.bound(tmp_path, 1, MOST)  # the first entry of this process
     looked = []
     for _ in range(8):
-        put("old", 1, days=31)
+        put("arm-old", 1, days=31)
         cache_size.bound(tmp_path, 50, MOST)
-        looked.append("old" not in left(tmp_path))
+        looked.append("arm-old" not in left(tmp_path))
     assert looked == [False, False, True, False, False, True, False, False]
 
 

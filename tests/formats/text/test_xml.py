@@ -78,6 +78,38 @@ def test_a_slip_hides_no_fault(text):
         xml.parse(text, "f")
 
 
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("<robot>\n<a:b/>\n<c></d></robot>", 3, "Opening and ending tag mismatch"),
+        ("<robot>\n<a:b/>\n<c>&e;</c></robot>", 3, "Entity 'e' not defined"),
+        ('<?xml version="2.0"?>\n<robot>\n<xacro:c/></robot>', 3, "Namespace prefix xacro"),
+    ],
+)
+def test_of_a_slip_and_a_fault_the_fault_is_named(text, line, words):
+    with pytest.raises(ModelError, match=rf"^f:{line}: malformed XML: .{words}"):
+        xml.parse(text, "f")
+
+
+@pytest.mark.parametrize("encoding", ["GB2312", "Shift_JIS", "Big5", "klingon"])
+def test_a_slip_in_an_encoding_that_cannot_be_looked_through_is_refused(encoding):
+    text = f'<?xml version="1.0" encoding="{encoding}"?><robot><a:b/></robot>'
+    with pytest.raises(ModelError, match="malformed XML"):
+        xml.parse(text.encode(), "f")
+
+
+def test_xacro_without_its_namespace_is_refused_behind_any_number_of_slips():
+    for inside in ("<xacro:insert_block/>", '<c xacro:if="1"/>'):
+        with pytest.raises(ModelError, match="malformed XML"):
+            xml.parse("<robot>" + "<a:b/>" * 120 + inside + "</robot>", "f")
+
+
+def test_xml_1_1_is_read_with_and_without_a_slip():
+    assert xml.parse('<?xml version="1.1"?><robot/>', "f").tag == "robot"
+    with pytest.warns(PoekinWarning, match="prefix a"):
+        assert xml.parse('<?xml version="1.1"?><robot><a:b/></robot>', "f").tag == "robot"
+
+
 @pytest.mark.parametrize("head", ['<?xml version="0.0"?>', '\n<?xml version="1.0"?>', ""])
 def test_a_document_type_is_refused_behind_a_slip(head):
     with pytest.raises(ModelError, match="DOCTYPE"):

@@ -133,6 +133,16 @@ def test_of_coupled_and_helical_joints_every_solution_reaches_the_target(data):
     assert len(Q) <= 40
 
 
+def test_targets_in_any_order_of_memory_have_the_same_solutions():
+    chain = arm("ur5")
+    T = targets(chain, 3, 2)[1]
+    wanted = ik_all(chain, T).solutions
+    for other in (np.asfortranarray(T), np.broadcast_to(T[:1], T.shape)):
+        found = ik_all(chain, other).solutions
+        np.testing.assert_array_equal(found[0], wanted[0])
+    np.testing.assert_array_equal(ik_all(chain, np.asfortranarray(T[1])).solutions, wanted[1])
+
+
 def test_a_long_arm_has_solutions_as_exact_as_its_poses():
     chain = arm("ur5")
     D = np.diag([1, 1, 1, 1e5, 1e5, 1e5])
