@@ -59,10 +59,10 @@ def parse_header(
     given = set(words)
     numbers = numbered(len(q_names))
     for names in (q_names, numbers):
-        if given >= set(names):
+        if given > set(names):
             rest = given - set(names)
             for layout in (*_FIXED, _points(rest)):
-                if rest and rest == set(layout.columns):
+                if rest == set(layout.columns):
                     return names, layout
     names = numbers
     if len(given & set(q_names)) > len(given & set(numbers)):

@@ -131,6 +131,12 @@ def test_a_gantry_is_written_so_that_it_can_be_read(tmp_path):
     assert path.read_text(encoding="utf-8") == "q1,q2,q3,x,y,z\n1.0,2.0,3.0,4.0,5.0,6.0\n"
 
 
+def test_coordinates_are_written_under_the_arms_own_names(tmp_path):
+    path = tmp_path / "a.csv"
+    data.write(path, TWO, [[1, 2]], Distances([3.0]))
+    assert path.read_text(encoding="utf-8") == "shoulder,slide,distance\n1.0,2.0,3.0\n"
+
+
 def test_of_q_the_rows_are_written_that_were_measured(tmp_path):
     path = tmp_path / "a.csv"
     data.write(path, ONE, [[1], [2], [3]], Distances([7.0, 8.0], rows=[2, 0]))
