@@ -19,6 +19,7 @@ from poekin.solve.calibration.measurements.simulated import (
     GROSS_SHIFT,
     GROSS_TURN,
     Simulated,
+    _Sensor,
     simulated,
 )
 from poekin.testing.strategies import chain_strategies
@@ -182,6 +183,30 @@ def test_a_distance_never_becomes_negative():
         d = made.measurements.d  # type: ignore[attr-defined]
         np.testing.assert_allclose(d[~made.outliers], 0.1, rtol=0, atol=1e-3)
         assert (d > 0).all()
+
+
+def test_a_gross_distance_is_too_short_or_too_long_and_too_long_where_none_would_be_left():
+    here = pk.Chain.from_space([], np.eye(4))
+    point = np.array([1.0, 0.0, 0.0])
+
+    class Drawn:
+        """Draws that are given: the second distance would be 0."""
+
+        def choice(self, signs, count):
+            return np.array([-1.0, -1.0, -1.0, 1.0])
+
+        def uniform(self, low, high, count):
+            return np.array([0.25, 1.0, 1.5, 0.25])
+
+    sensor = _Sensor(
+        reach=1.0,
+        noise=(0.0, 0.0),
+        rng=np.random.default_rng(0),
+        outlier_rng=Drawn(),  # type: ignore[arg-type]
+        gross=np.ones(4, bool),
+    )
+    d = sensor.distances(here.fk(np.zeros((4, 0))), point, np.zeros(3))
+    assert d.tolist() == [0.75, 2.0, 2.5, 1.25]
 
 
 def test_the_arm_the_noise_and_the_frames_are_drawn_apart():
