@@ -166,9 +166,10 @@ def test_a_matrix_next_to_a_singular_one_has_no_polar_rotation():
         exact.polar(np.diag([1e-40, 1e-40, 1.0]))
 
 
-def test_a_reflection_has_no_polar_rotation():
+@pytest.mark.parametrize("last", [-1.0, -0.1, 0.0])
+def test_a_reflection_or_a_singular_matrix_has_no_polar_rotation(last):
     with pytest.raises(ValueError, match="positive determinant"):
-        exact.polar(np.diag([1.0, 1.0, -1.0]))
+        exact.polar(np.diag([1.0, 1.0, last]))
 
 
 def test_inverse_and_forward_are_what_they_say():
