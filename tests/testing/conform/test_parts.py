@@ -51,9 +51,9 @@ def test_what_is_attainable_of_a_pose(turned, unit):
     arm = ARM._replace(turned=turned, offset=np.array([0.1, 0.2, -0.3]))
     angular, lengths = of_arms.error_bound(arm, Q, unit)
     assert angular == pytest.approx(
-        unit * (5 + math.sqrt(2) * (0.8 + 0.1 + turned)) + missed, rel=1e-12
+        unit * (5 + math.sqrt(2) * (0.8 + 0.1 + turned)) + missed, rel=1e-12, abs=0
     )
-    assert lengths == pytest.approx(ARM.reach + 1.1, rel=1e-12)
+    assert lengths == pytest.approx(ARM.reach + 1.1, rel=1e-12, abs=0)
 
 
 @pytest.mark.parametrize("precision", [DOUBLE, SINGLE])
@@ -86,9 +86,9 @@ def test_the_worst_column_of_a_jacobian_counts(frame):
     w, v = of_arms.jacobian_parts(frame, ARM, Q, J)
     ratios = 1 + math.sqrt(3)
     assert (w.scale, w.error_bound) == (1.0, None)
-    assert w.least == pytest.approx(ratios * angular, rel=1e-12)
+    assert w.least == pytest.approx(ratios * angular, rel=1e-12, abs=0)
     assert (v.scale, v.error_bound) == (2 * lengths + 1, None)
-    assert v.least == pytest.approx(ratios * angular * (2 * lengths + 1), rel=1e-12)
+    assert v.least == pytest.approx(ratios * angular * (2 * lengths + 1), rel=1e-12, abs=0)
     turning = of_arms.arm(SCREWS[[0, 2]], HOME)
     J = exact.rounded(exact_chain.jacobians(turning, exact.exactly(Q[:2])))[0]
     assert of_arms.jacobian_parts("space", turning, Q[:2], J)[1].scale == 2 * turning.reach
@@ -109,11 +109,11 @@ def test_each_number_of_exp_is_in_its_part():
             expected = [2.0 * (i < 3 and j < 3), 2.0 * (i < 3 and j == 3), 2.0 * (i == 3)]
             assert [R.error, t.error, last.error] == pytest.approx(expected, abs=1e-14)
         angular = unit * (1 + math.sqrt(2) * 2.5)
-        assert (R.scale, R.least) == pytest.approx((math.sqrt(2), angular), rel=1e-12)
+        assert (R.scale, R.least) == pytest.approx((math.sqrt(2), angular), rel=1e-12, abs=0)
         assert R.error_bound is None
         linear = unit / U * float(bound.linear)
         assert (t.scale, t.least, called(t.error_bound)) == pytest.approx(
-            (7.0, 7 * unit, linear), rel=1e-12
+            (7.0, 7 * unit, linear), rel=1e-12, abs=0
         )
         assert (last.scale, last.least, last.error_bound) == (1.0, 0.0, None)
         assert len(of_groups.exp_parts(XI[:3], POSE[:3, :3], precision)) == 1
@@ -131,9 +131,13 @@ def test_each_number_of_log_is_in_its_part():
             assert [w.error, v.error] == pytest.approx([2.0 * (k < 3), 2.0 * (k >= 3)], abs=1e-13)
         coarser = unit / U
         expected = (1.0, unit * 2.5, coarser * float(bound.angular))
-        assert (w.scale, w.least, called(w.error_bound)) == pytest.approx(expected, rel=1e-12)
+        assert (w.scale, w.least, called(w.error_bound)) == pytest.approx(
+            expected, rel=1e-12, abs=0
+        )
         expected = (max(7.0, t), unit * 7, coarser * float(bound.linear))
-        assert (v.scale, v.least, called(v.error_bound)) == pytest.approx(expected, rel=1e-12)
+        assert (v.scale, v.least, called(v.error_bound)) == pytest.approx(
+            expected, rel=1e-12, abs=0
+        )
 
 
 @pytest.mark.parametrize(("gap", "either"), [(2.0**-52, True), (2e-15, False)])
@@ -201,7 +205,7 @@ def test_each_block_of_a_jacobian_of_exp_is_in_its_part():
     assert [part.scale for part in (P, Q, alone)] == [1.0, 1.0, 1.0]
     assert P.least == Q.least == of_groups.JACOBIAN_BAR / of_groups.EXP_LOG_BAR
     assert [part.error_bound for part in (P, Q, alone)] == [None] * 3
-    assert alone.least == pytest.approx(2.0**29 * P.least, rel=1e-15)
+    assert alone.least == pytest.approx(2.0**29 * P.least, rel=1e-15, abs=0)
 
 
 def wrong(size: tuple[int, ...]):
