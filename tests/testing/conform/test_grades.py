@@ -50,7 +50,9 @@ def test_a_violation_carries_the_error_and_the_bound_of_the_grade_asked_for():
     ]:
         with pytest.raises(LawViolation, match=r"^law: x: error") as caught:
             graded("law", [part(error)], at_most, x=1)
-        assert (caught.value.error, caught.value.bound) == pytest.approx((error, bound), rel=1e-12)
+        assert (caught.value.error, caught.value.bound) == pytest.approx(
+            (error, bound), rel=1e-12, abs=0
+        )
     with pytest.raises(LawViolation, match=r"fault = 'NaN'"):
         graded("law", "NaN", Grade.POOR)
     assert graded("law", "NaN").fault == "NaN"

@@ -247,7 +247,7 @@ def test_directions_become_axes_then_planes_then_nearly_axes():
         [1e-7, 1, -2e-3],
         [3e-7, 1, -2e-3],
     ]  # the nearest power of ten, without its sign
-    assert tilted[15] == pytest.approx([3e-7, 1, 0], rel=1e-12)
+    assert tilted[15] == pytest.approx([3e-7, 1, 0], rel=1e-12, abs=0)
     assert tilted[16:] == [[3e-7, 1, -2e-3]]
     assert len(list(shrink._simpler_directions(np.array([0.9e-4, 1.0, 0])))) == 12 + 3 + 1
     for tilt in (1e-4, 1.1e-4):

@@ -245,7 +245,7 @@ def test_what_is_near_a_whole_turn_has_no_bound(monkeypatch):
 )
 def test_beyond_half_a_turn_a_logarithm_may_err_more(angle, factor, monkeypatch):
     ((_, bound),) = measured("a_logarithm_is_nearest_to_itself", GROUPS[3], monkeypatch, angle * N)
-    assert bound == pytest.approx(factor * U * angle, rel=1e-12)
+    assert bound == pytest.approx(factor * U * angle, rel=1e-12, abs=0)
 
 
 def test_near_what_lies_on_the_line_too_the_bounds_are_those_of_the_branch_that_is_found(
@@ -261,7 +261,7 @@ def test_near_what_lies_on_the_line_too_the_bounds_are_those_of_the_branch_that_
     found = iter(measured("near_picks_the_closest_branch", group, monkeypatch, XI, ETA))
     n = np.concatenate([N, np.zeros(3)])
     along = [0.75 * n, 3.0 * n, 6.0 * n]
-    assert asked == pytest.approx(np.array([ETA, *along, *(-x for x in along)]), rel=1e-12)
+    assert asked == pytest.approx(np.array([ETA, *along, *(-x for x in along)]), rel=1e-12, abs=0)
     branches = 2.5 + 2 * math.pi * np.arange(-4, 5)
     seen = set()
     for near in asked:
@@ -274,7 +274,7 @@ def test_near_what_lies_on_the_line_too_the_bounds_are_those_of_the_branch_that_
             16 * U * extent,
             64 * U * extent,
         ]
-        assert [next(found)[1] for _ in bounds] == pytest.approx(bounds, rel=1e-12)
+        assert [next(found)[1] for _ in bounds] == pytest.approx(bounds, rel=1e-12, abs=0)
         seen.add(round(angle, 1))
     assert seen == {2.5, 3.8, 8.8}
     assert not list(found)
