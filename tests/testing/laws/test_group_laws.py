@@ -236,7 +236,7 @@ def test_what_is_near_a_whole_turn_has_no_bound(monkeypatch):
         )
     beyond = measured("a_logarithm_is_nearest_to_itself", GROUPS[6], monkeypatch, XI * 2)
     assert [bound for _, bound in beyond] == pytest.approx(
-        [64 * U * 5, 512 * U * 6**2 * 14], rel=1e-12
+        [64 * U * 5, 512 * U * 6**2 * 14], rel=1e-12, abs=0
     )
 
 

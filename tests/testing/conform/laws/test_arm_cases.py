@@ -200,7 +200,7 @@ def test_the_second_oracle_is_asked_about_pose_and_jacobian(monkeypatch):
 def test_zeros_to_rounding_are_shown_as_zeros():
     arm, _ = arm_cases.drawn(Case(np.array([0, 0, 1.0, 0, 0, 0, 0, 0, *[0.0] * 6]), ("revolute",)))
     quarter = arm_cases.truth(SUBJECT, arm, np.array([math.pi / 2]), False)
-    assert quarter[0, 0] == pytest.approx(6.1e-17, rel=0.01)  # cos of the float next to π/2
+    assert quarter[0, 0] == pytest.approx(6.1e-17, rel=0.01, abs=0)  # cos of the float next to π/2
     assert arm_cases.truth(SUBJECT, arm, np.array([1e-61]), False)[1, 0] == 0
     assert arm_cases.truth(SUBJECT, arm, np.array([1e-59]), False)[1, 0] == 1e-59
     far, _ = arm_cases.drawn(
