@@ -137,6 +137,7 @@ def test_what_is_wrong_with_the_whole_is_said():
         (good[:6] + b"\7\0" + good[8:], "its version is unknown"),
         (good[:100], "it ends within its header"),
         (good[:9], "it ends within its header"),
+        (good[:8], "it ends within its header"),
     ):
         with pytest.raises(FileError) as caught:
             configurations(content, 2, "q")

@@ -139,13 +139,14 @@ def test_what_is_of_poekin_already_is_refused(made):
         from_object(models[made])
 
 
-def test_a_frame_is_that_of_a_pair():
+@pytest.mark.parametrize("frame", ["body", None, np.eye(4)], ids=["a name", "None", "a matrix"])
+def test_a_frame_is_that_of_a_pair(frame):
     joint = SimpleNamespace(isjoint=True, axis="Rz", A=None)
     with pytest.raises(
         InputError,
         match=r"^frame: it is that of a pair \(M, screws\), and this is a Robotics Toolbox ETS$",
     ):
-        from_object([joint], frame="body")
+        from_object([joint], frame=frame)
 
 
 def test_no_other_library_is_imported_for_it():

@@ -97,6 +97,20 @@ def test_the_pitches_of_screws_are_those_given_or_those_that_they_have():
     assert pitches_of(np.zeros((0, 6)), []).shape == (0,)
 
 
+@pytest.mark.parametrize("pitch", [1.1e100, -1e101])
+def test_a_pitch_is_at_most_1e100(pitch):
+    S = np.array([[*Z, 0, 0, 0]] * 2)
+    assert pitches_of(S, [1e100, -1e100]).tolist() == [1e100, -1e100]
+    with pytest.raises(ScrewError, match=r"^pitches\[1\] \(joint 'b'\): expected at most 1e\+100 "):
+        pitches_of(S, [0, pitch], ("a", "b"))
+
+
+def test_of_rows_of_which_one_alone_was_misread_the_message_reads_that_one():
+    swapped = [*P, *Z]
+    with pytest.raises(ScrewError, match=r": pass pk\.se3\.linear_first\(rows\[1\]\)$"):
+        unit_screws([screw.revolute(Z, P), swapped], what="rows")
+
+
 @pytest.mark.parametrize("off", [9e-10, -9e-10, 1e-12, -1e-14])
 def test_a_screw_of_nearly_unit_length_is_made_exact_and_stays_on_its_line(off):
     S = np.array([*Z, *(np.cross(P, Z) + 0.3 * Z)]) * (1 + off)

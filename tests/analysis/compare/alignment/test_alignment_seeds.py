@@ -196,6 +196,7 @@ def test_an_axis_behind_slides_is_anchored_where_the_next_links_that_turn_have_i
     for rows, k, expected in (
         ([slide, first, across], 1, [1, 2, -7]),
         ([slide, first, beside, across], 1, [1, 2, -7]),
+        ([slide, first, across, slide, across], 1, [1, 2, -7]),
         ([slide, first, slide, across], 1, None),
         ([slide, first, beside], 1, None),
         ([slide, first, beside, first], 1, None),

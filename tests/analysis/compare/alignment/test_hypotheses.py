@@ -17,11 +17,12 @@ def cost(
     frames: int = 0,
     link: int = 0,
     miss: Any = 16.0,
+    joints: int = 12,
 ) -> float:
     """Of a reading in which joints 1, 2 ... have another axis, those after them other zeros, the
     last ones reversed.
     """
-    n = 12
+    n = joints
     at = np.arange(n)
     moved, offset = at < axes, (at >= axes) & (at < axes + zeros)
     directions = np.where(at >= n - reversed_, -1.0, 1.0)
@@ -60,6 +61,11 @@ def test_where_base_and_tool_moved_other_zeros_alone_come_before_a_moved_axis():
     assert cost(axes=1, frames=2) < cost(zeros=7)
     # what differs in one joint by zero and direction is one convention of it
     assert cost(zeros=12, reversed_=12) == cost(zeros=12)
+
+
+def test_one_joint_that_differs_in_zero_and_direction_costs_as_much_as_one_change():
+    # So no other conventions are looked for beside it, and base and tool that stay decide.
+    assert cost(zeros=1, reversed_=1, joints=1) == cost(zeros=1) == cost(axes=1)
 
 
 @pytest.mark.parametrize("zeros", [1, 2, 3])
