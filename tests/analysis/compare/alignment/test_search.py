@@ -145,6 +145,29 @@ def test_arms_of_few_joints_are_read_too(n, kind):
         ]
 
 
+def measured(seed, sizes):
+    """An arm, and the same one in another base, its axes moved by some such sizes (rad and m)."""
+    rng = np.random.default_rng(seed)
+    chain = random_arm(seed, ("revolute",) * len(sizes))
+    moves = [se3.exp(size * rng.normal(size=6)) for size in sizes]
+    S = np.array([se3.adjoint(T) @ A for T, A in zip(moves, chain.screws, strict=True)])
+    return chain, Chain.from_space(S, chain.home).rebased(se3.exp(rng.normal(size=6)))
+
+
+@pytest.mark.parametrize("seed", [105, 199, 1294])
+def test_beside_one_wrong_axis_the_others_that_are_right_within_tolerance_place_the_base(seed):
+    # The axis before it and the one behind it say where the base is; the wrong one itself does not.
+    found, _ = search(*measured(seed, [4e-6, 2e-4, 4e-6]), TOL)
+    assert np.flatnonzero(found.implicated).tolist() == [1]
+    assert found.frames == 1
+
+
+@pytest.mark.parametrize("seed", [196, 594])
+def test_two_wrong_axes_are_told_by_a_fit_to_those_that_agree_within_tolerance(seed):
+    found, _ = search(*measured(seed, [4e-6, 1e-4, 1e-4, 4e-6, 4e-6]), TOL)
+    assert np.flatnonzero(found.implicated).tolist() == [1, 2]
+
+
 def test_an_arm_of_slides_alone_is_read():
     chain = Chain.from_space(
         [screw.prismatic(row) for row in np.random.default_rng(1).normal(size=(3, 3))], np.eye(4)
