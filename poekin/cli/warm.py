@@ -6,7 +6,7 @@ import time
 
 import typer
 
-from ..engine.jit import cache
+from ..engine.jit import cache, cache_size
 from ..engine.warm import kernels
 from ..errors import FileError
 from .kinematics.arm import Json
@@ -28,7 +28,8 @@ def command(json: Json = False) -> None:
         for done, (name, kernel) in enumerate(found.items()):
             progress(done, len(found), name)
             kernel.ready()
-    kept = [file.stat().st_size for file in place.glob("*.kernel")]
+    kept = [entry for entry in cache.used if entry.parent == place and entry.exists()]
+    kept = [entry for entry in kept if not entry.name.startswith(cache_size.ARM)]
     if len(kept) < len(found):
         raise FileError(
             f"{len(found)} kernels were compiled, and {path_text(place)} keeps {len(kept)}: it cannot be written, or"
@@ -38,6 +39,6 @@ def command(json: Json = False) -> None:
     if json:
         print(as_json({"kernels": len(found), "directory": str(place), "seconds": seconds}))
     else:
-        size = sum(kept) / cache.MIB
+        size = sum(entry.stat().st_size for entry in kept) / cache.MIB
         say(f"{len(found)} kernels in {path_text(place)}, {size:.1f} MiB, {seconds:.0f} s")
     raise typer.Exit(0)

@@ -35,9 +35,14 @@ def test_json_says_how_many_and_where(as_json):
 
 
 def test_where_nothing_is_kept_it_is_an_error(refused, tmp_path, monkeypatch):
-    # all kernels of this process are compiled already: a new place stays empty
-    monkeypatch.setenv("POEKIN_CACHE_DIR", str(tmp_path / "new"))
-    assert f"'{tmp_path / 'new'}' keeps 0: it cannot be written" in refused("warm")
+    # all kernels of this process are compiled already: nothing is added to another place, and
+    # what another version left there does not count
+    new = tmp_path / "new"
+    new.mkdir(0o755)
+    for k in range(in_the_source()):
+        (new / f"old-{k}.kernel").write_bytes(b"")
+    monkeypatch.setenv("POEKIN_CACHE_DIR", str(new))
+    assert f"'{new}' keeps 0: it cannot be written" in refused("warm")
 
 
 def test_without_a_directory_that_can_be_used_nothing_is_compiled(refused, tmp_path, monkeypatch):

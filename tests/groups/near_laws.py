@@ -30,23 +30,6 @@ def near_picks_the_closest_branch(
     It lies on the line of the principal logarithm. Also held near what lies on that line, both ways.
     Where the rotation is the identity to 1e-12 its axis is free, and so is which logarithm is the
     closest.
-
-    Parameters
-    ----------
-    group : Group
-        Functions under test; the law uses exp and log.
-    xi, near : (6,) or (3,) ndarray
-        Twists (ω; v) in rad and m, or rotation vectors in rad.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
     """
     X = group.exp(xi)
     principal = group.log(X)
@@ -70,23 +53,6 @@ def a_logarithm_is_nearest_to_itself(
     """Law: the logarithm nearest to ξ of exp ξ is ξ, on every branch.
 
     log(exp ξ, near=ξ) = ξ, but at the multiples of 2π, where v has no bound.
-
-    Parameters
-    ----------
-    group : Group
-        Functions under test; the law uses exp and log.
-    xi : (6,) or (3,) ndarray
-        Twist (ω; v) in rad and m, or rotation vector in rad, |ω| up to 10.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
     """
     theta = angle(xi)
     gap = abs(math.remainder(theta, 2 * math.pi))

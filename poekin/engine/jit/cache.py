@@ -39,6 +39,8 @@ PLACES = {"win32": ("LOCALAPPDATA", "AppData/Local"), "darwin": ("", "Library/Ca
 """Variable with a user's cache directory, and its place below the home directory without it."""
 log = logging.getLogger("poekin")
 _logged: set[str] = set()
+used: set[Path] = set()
+"""Entries that this process has read or written."""
 
 
 def log_once(topic: str, message: str, *details: object) -> None:
@@ -190,6 +192,7 @@ def read(path: Path) -> bytes | None:
         return None
     with contextlib.suppress(OSError):  # in a directory that is read-only
         os.utime(path)  # it is in use: the last that the bound on the cache's size removes
+    used.add(path)
     return payload
 
 
@@ -202,6 +205,7 @@ def write(path: Path, payload: bytes) -> None:
             file.write(hashlib.sha256(payload).digest() + payload)
         os.chmod(partial, 0o644)  # whoever may read the directory may read its entries
         os.replace(partial, path)
+        used.add(path)
         cache_size.bound(path.parent, len(payload) + 32, size_limit())
     except OSError as error:
         log_once("write", "%s is not kept: it cannot be written (%s)", path, error.strerror)

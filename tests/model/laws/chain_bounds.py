@@ -32,20 +32,6 @@ def budget(
     the joints slide beyond it. Where the home pose's rotation R misses being one by δ = |R Rᵀ - I|,
     the forms are different motions: M e^{B x}, whose B = Ad(M)⁻¹ A takes Rᵀ for the inverse, turns
     otherwise by up to δ (1 + Σ |x_i|/2), and moves by up to δ (2 + Σ |x_i|/2) times the same.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain.
-    q : (m,) ndarray
-        Coordinates, rad or m.
-
-    Returns
-    -------
-    angular : float
-        Bound on the Frobenius norm of the error of R, rad.
-    linear : float
-        Bound on the error of the translation, m.
     """
     x = chain.coupling @ q + chain.offset
     R = chain.home[:3, :3]
@@ -61,22 +47,7 @@ def of_poses(
     T: np.ndarray,
     expected: np.ndarray,
 ) -> Pairs:
-    """Errors of R, of t and of the last row of a pose, with their bounds.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain.
-    q : (m,) ndarray
-        Coordinates, rad or m.
-    T, expected : (4, 4) ndarray
-        Pose under test and true pose, in the base frame.
-
-    Returns
-    -------
-    pairs : list of tuple
-        Pairs (error, bound), rad and m.
-    """
+    """Errors of R, of t and of the last row of a pose, with their bounds."""
     angular, linear = budget(chain, q)
     error = T - np.asarray(expected, dtype=float)
     return [(size(error[:3, :3]), angular), (size(error[:3, 3]), linear), (size(error[3]), 0.0)]
@@ -89,24 +60,7 @@ def of_twists(
     error: np.ndarray,
     factor: float = 1.0,
 ) -> Pairs:
-    """Errors of ω and v of a twist, with the budget times the joints' rates as bounds.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain.
-    q, dq : (m,) ndarray
-        Coordinates and rates, rad or m, and per s.
-    error : (6,) ndarray
-        Difference of two twists (ω; v) in one frame.
-    factor : float, optional
-        Multiple of the budget that is allowed.
-
-    Returns
-    -------
-    pairs : list of tuple
-        Pairs (error, bound), rad/s and m/s.
-    """
+    """Errors of ω and v of a twist, with the budget times the joints' rates as bounds."""
     angular, linear = budget(chain, q)
     rates = chain.coupling @ dq
     turning = size(chain.local.rotates * rates)
@@ -116,18 +70,7 @@ def of_twists(
 
 
 def chain_numbers(chain: Any) -> dict[str, object]:
-    """Screws and home pose of a chain, and its coupling where there is one.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain.
-
-    Returns
-    -------
-    numbers : dict
-        Arrays by their names: without them nobody could repeat a violation.
-    """
+    """Screws and home pose of a chain, and its coupling where there is one."""
     numbers = {"screws": chain.screws, "home": chain.home}
     if not np.array_equal(chain.coupling, np.eye(chain.dof)):
         numbers |= {"coupling": chain.coupling, "offset": chain.offset}
@@ -161,29 +104,7 @@ def check_chain_bounds(
     *measured: tuple[float, float],
     **seen: object,
 ) -> float:
-    """Worst error ÷ bound, as `check_bounds`; a violation has the chain's numbers, too.
-
-    Parameters
-    ----------
-    law : str
-        Name of the law.
-    chain : Chain
-        The chain.
-    *measured : tuple of float
-        Pairs (error, bound), rad or m.
-    **seen : object
-        Arguments of the law by their names.
-
-    Returns
-    -------
-    ratio : float
-        Largest error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        At the first pair that does not hold.
-    """
+    """Worst error ÷ bound, as `check_bounds`; a violation has the chain's numbers, too."""
     return check_bounds(law, *measured, **seen, **chain_numbers(chain))
 
 
@@ -194,31 +115,7 @@ def check_batch(
     functions: Sequence[Shaped],
     bound: Callable[[np.ndarray, np.ndarray], float],
 ) -> float:
-    """Check that functions of a batch are, element by element, those of single configurations.
-
-    Parameters
-    ----------
-    law : str
-        Name of the law.
-    chain : Chain
-        The chain.
-    batch : (..., m) ndarray
-        Configurations, rad or m.
-    functions : sequence of tuple
-        Each function of configurations, with the shape of its value for a single one.
-    bound : callable
-        Bound on the error at one configuration, bound(q, value).
-
-    Returns
-    -------
-    ratio : float
-        Largest error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If a value has another shape, or a value of the batch another value.
-    """
+    """Check that functions of a batch are, element by element, those of single configurations."""
     shape = batch.shape[:-1]
     pairs: Pairs = []
     for function, tail in functions:
@@ -235,18 +132,7 @@ def check_batch(
 
 
 def adjoint(T: np.ndarray) -> np.ndarray:
-    """Adjoint matrix Ad(T) = [R 0; [t] R R] of a pose, by NumPy alone.
-
-    Parameters
-    ----------
-    T : (4, 4) ndarray
-        Pose of a frame in the base frame, m.
-
-    Returns
-    -------
-    X : (6, 6) ndarray
-        Matrix from twists (ω; v) of the frame to those of the base frame.
-    """
+    """Adjoint matrix Ad(T) = [R 0; [t] R R] of a pose, by NumPy alone."""
     R = T[:3, :3]
     x, y, z = T[:3, 3]
     corner = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]) @ R
@@ -254,17 +140,6 @@ def adjoint(T: np.ndarray) -> np.ndarray:
 
 
 def inverse(T: np.ndarray) -> np.ndarray:
-    """Inverse of a pose, by NumPy alone.
-
-    Parameters
-    ----------
-    T : (4, 4) ndarray
-        Pose of a frame in the base frame, m.
-
-    Returns
-    -------
-    X : (4, 4) ndarray
-        Pose of the base in the frame.
-    """
+    """Inverse of a pose, by NumPy alone."""
     R = T[:3, :3].T
     return np.block([[R, -(R @ T[:3, 3:])], [np.zeros((1, 3)), np.ones((1, 1))]])

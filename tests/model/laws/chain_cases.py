@@ -22,27 +22,7 @@ def chain_cases(
     kinds: Sequence[str],
     **options: Any,
 ) -> st.SearchStrategy[tuple[Any, ...]]:
-    """Chains with the arguments of their law, by their kinds.
-
-    Parameters
-    ----------
-    kinds : sequence of str
-        Kinds of `PARTS`: "q", "dq", configuration and rates (m,); "batch", configurations (*shape, m);
-        "pose", a pose (4, 4); "point", a point (3,); "joint", the number of a joint (of a chain that has
-        one); "frames", poses (n, 2, 4, 4), to re-attach the frame of each joint and of each link.
-    **options : object
-        Options of `chains`.
-
-    Returns
-    -------
-    strategy : SearchStrategy
-        Strategy of tuples, the chain first; rad and m, in the base frame.
-
-    Raises
-    ------
-    InputError
-        For other kinds, and as `chains`.
-    """
+    """Chains with the arguments of their law, by their kinds."""
     parts: tuple[str, ...] = ()
     if kinds:
         parts = arguments.some("kinds", kinds, PARTS)

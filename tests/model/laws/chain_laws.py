@@ -32,23 +32,6 @@ def fk_is_the_product_of_exponentials(
     """Law: forward kinematics is the product of exponentials, in 60 digits.
 
     f(q) = e^{A_1 x_1} ⋯ e^{A_n x_n} M.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `fk`.
-    q : (m,) ndarray
-        Coordinates, rad or m.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
     """
     return of_poses(chain, q, chain.fk(q), exact.rounded(exact_chain.pose(chain, q)))
 
@@ -58,21 +41,6 @@ def home_is_where_zero_leads(chain: Any) -> Pairs:
     """Law: the pose at zero coordinates is the home pose.
 
     f(0) = M where c = 0, and for any c the pose of the joints at c.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test, rad and m; the law uses `fk`.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
     """
     q = np.zeros(chain.dof)
     expected = chain.home
@@ -89,23 +57,6 @@ def forms_agree(
     """Law: the space, body and local forms are one motion.
 
     f = Π e^{A x} M = M Π e^{B x} = M_1 e^{S x_1} ⋯ M_{n+1}.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `fk`, `space`, `body` and `local`.
-    q : (m,) ndarray
-        Coordinates, rad or m.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
     """
     x = exact_chain.displacements(chain, q)
     f = chain.fk(q)
@@ -126,27 +77,7 @@ def joint_poses_are_partial_products(
     q: np.ndarray,
     joint: int,
 ) -> Pairs:
-    """Law: the z-aligned frame of joint k stands at e^{A_1 x_1} ⋯ e^{A_k x_k} (M_1 ⋯ M_k).
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `joint_poses`.
-    q : (m,) ndarray
-        Coordinates, rad or m.
-    joint : int
-        Number of the joint, from 0.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
-    """
+    """Law: the z-aligned frame of joint k stands at e^{A_1 x_1} ⋯ e^{A_k x_k} (M_1 ⋯ M_k)."""
     expected = joint_pose(chain, q, joint)
     return of_poses(chain, q, chain.joint_poses(q)[joint], expected)
 
@@ -155,25 +86,7 @@ def batches_are_made_of_single_configurations(
     chain: Any,
     batch: np.ndarray,
 ) -> float:
-    """Law: a function of a batch gives, element by element, its value for one configuration.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `fk`, `joint_poses`, `velocity` and `jacobian`.
-    batch : (..., m) ndarray
-        Configurations, rad or m.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound, or a value has another shape.
-    """
+    """Law: a function of a batch gives, element by element, its value for one configuration."""
     functions: list[Shaped] = [
         (chain.fk, (4, 4)),
         (chain.joint_poses, (len(chain.screws), 4, 4)),
@@ -197,22 +110,7 @@ def joint_pose(
     q: np.ndarray,
     joint: int,
 ) -> np.ndarray:
-    """Pose of the z-aligned frame of a joint, e^{A_1 x_1} ⋯ e^{A_k x_k} M_1 ⋯ M_k.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain, with its local form.
-    q : (m,) array_like
-        Coordinates, rad or m.
-    joint : int
-        Number k of the joint, from 0.
-
-    Returns
-    -------
-    T : (4, 4) ndarray
-        Numbers of `exact`, in the base frame.
-    """
+    """Pose of the z-aligned frame of a joint, e^{A_1 x_1} ⋯ e^{A_k x_k} M_1 ⋯ M_k."""
     first = slice(joint + 1)
     x = exact_chain.displacements(chain, q)
     return exact.forward(chain.screws[first], exact.product(chain.local.frames[first]), x[first])

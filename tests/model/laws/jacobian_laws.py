@@ -25,25 +25,7 @@ def jacobian_is_the_derivative(
     q: np.ndarray,
     dq: np.ndarray,
 ) -> Pairs:
-    """Law: J(q) dq is the velocity of f along dq, by finite differences, in the three frames.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `fk` and `jacobian`.
-    q, dq : (m,) ndarray
-        Coordinates and rates, rad or m, and per s.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
-    """
+    """Law: J(q) dq is the velocity of f along dq, by finite differences, in the three frames."""
     # The sum of the stencil's weights, over its step of 0.1/rate, is what a difference makes of
     # rounding.
     rate = float(np.abs(chain.local.rotates * (chain.coupling @ dq)).sum())
@@ -61,25 +43,7 @@ def space_jacobian_is_not_hybrid(
     q: np.ndarray,
     dq: np.ndarray,
 ) -> Pairs:
-    """Law: the linear part of the space Jacobian is ḃ - ω × b, and not the hybrid Jacobian's ḃ.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `fk` and `jacobian`.
-    q, dq : (m,) ndarray
-        Coordinates and rates, rad or m, and per s.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
-    """
+    """Law: the linear part of the space Jacobian is ḃ - ω × b, and not the hybrid Jacobian's ḃ."""
     V = chain.jacobian(q, "space") @ dq
     H = chain.jacobian(q, "hybrid") @ dq
     expected = np.concatenate([H[:3], H[3:] - np.cross(H[:3], chain.fk(q)[:3, 3])])
@@ -92,25 +56,7 @@ def body_jacobian_is_space_seen_from_the_tool(
     q: np.ndarray,
     dq: np.ndarray,
 ) -> Pairs:
-    """Law: the body Jacobian is the space Jacobian seen from the tool, J_b = Ad(f⁻¹) J_s.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `fk` and `jacobian`.
-    q, dq : (m,) ndarray
-        Coordinates and rates, rad or m, and per s.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
-    """
+    """Law: the body Jacobian is the space Jacobian seen from the tool, J_b = Ad(f⁻¹) J_s."""
     error = chain.jacobian(q, "space") - adjoint(chain.fk(q)) @ chain.jacobian(q, "body")
     return of_twists(chain, q, dq, error @ dq)
 
@@ -125,25 +71,6 @@ def jacobian_in_a_joints_frame_is_space_seen_from_it(
     """Law: the Jacobian in a joint's frame is the space Jacobian, seen from that frame.
 
     J_k = Ad(T_k⁻¹) J_s with T_k the pose of joint k's frame.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `joint_poses` and `jacobian`.
-    q, dq : (m,) ndarray
-        Coordinates and rates, rad or m, and per s.
-    joint : int
-        Number of the joint, from 0.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
     """
     seen = adjoint(chain.joint_poses(q)[joint]) @ chain.jacobian(q, joint)
     return of_twists(chain, q, dq, (chain.jacobian(q, "space") - seen) @ dq, 4.0)
@@ -155,25 +82,7 @@ def velocity_is_the_jacobian_times_rates(
     q: np.ndarray,
     dq: np.ndarray,
 ) -> Pairs:
-    """Law: the recursion of velocities yields J(q) dq, in every frame.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `velocity` and `jacobian`.
-    q, dq : (m,) ndarray
-        Coordinates and rates, rad or m, and per s.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
-    """
+    """Law: the recursion of velocities yields J(q) dq, in every frame."""
     pairs: Pairs = []
     for frame in (*FRAME_NAMES, *range(len(chain.screws))):
         error = chain.velocity(q, dq, frame) - chain.jacobian(q, frame) @ dq
@@ -187,25 +96,7 @@ def one_pass_gives_both(
     q: np.ndarray,
     dq: np.ndarray,
 ) -> Pairs:
-    """Law: `fk_jacobian` returns what `fk` and `jacobian` return, in every frame.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `fk_jacobian`, `fk` and `jacobian`.
-    q, dq : (m,) ndarray
-        Coordinates and rates, rad or m, and per s.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
-    """
+    """Law: `fk_jacobian` returns what `fk` and `jacobian` return, in every frame."""
     pairs: Pairs = []
     for frame in (*FRAME_NAMES, *range(len(chain.screws))):
         T, J = chain.fk_jacobian(q, frame)
@@ -221,27 +112,7 @@ def a_point_moves_as_the_tools_origin_would(
     dq: np.ndarray,
     point: np.ndarray,
 ) -> Pairs:
-    """Law: with `at` = p the linear part is the velocity of p, v + ω × p in body axes.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain under test; the law uses `fk_jacobian`, `fk` and `jacobian`.
-    q, dq : (m,) ndarray
-        Coordinates and rates, rad or m, and per s.
-    point : (3,) ndarray
-        Point p in the frame of the tool, m.
-
-    Returns
-    -------
-    ratio : float
-        Error ÷ bound, 0 to 1.
-
-    Raises
-    ------
-    LawViolation
-        If an error exceeds its bound.
-    """
+    """Law: with `at` = p the linear part is the velocity of p, v + ω × p in body axes."""
     R = chain.fk(q)[:3, :3]
     pairs: Pairs = []
     for frame, lever in (("body", point), ("hybrid", R @ point)):
