@@ -78,7 +78,8 @@ def test_the_idealised_arm_is_written_and_what_that_changed_is_said(poekin, tmp_
     _, code_of_it = emit.c(ideal.chain, "hybrid", name="base_to_tool").source.split("#include", 1)
     assert (tmp_path / "b" / "base_to_tool.c").read_text(encoding="ascii").endswith(code_of_it)
     head = (tmp_path / "b" / "base_to_tool.h").read_text(encoding="ascii")
-    assert "idealised within 0.0001 (rad and m)" in head.replace("\n * ", " ")
+    assert "from the robot base_to_tool, file bent.urdf with" in head.replace("\n * ", " ")
+    assert ", idealised within 0.0001 (rad and m)" in head.replace("\n * ", " ")
 
 
 @pytest.mark.parametrize("place", ["arm.py", "somewhere"])
