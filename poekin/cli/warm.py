@@ -6,7 +6,7 @@ import time
 
 import typer
 
-from ..engine.jit import cache, cache_size
+from ..engine.jit import cache
 from ..engine.warm import kernels
 from ..errors import FileError
 from .kinematics.arm import Json
@@ -29,7 +29,6 @@ def command(json: Json = False) -> None:
             progress(done, len(found), name)
             kernel.ready()
     kept = [entry for entry in cache.used if entry.parent == place and entry.exists()]
-    kept = [entry for entry in kept if not entry.name.startswith(cache_size.ARM)]
     if len(kept) < len(found):
         raise FileError(
             f"{len(found)} kernels were compiled, and {path_text(place)} keeps {len(kept)}: it cannot be written, or"

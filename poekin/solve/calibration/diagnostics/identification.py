@@ -286,8 +286,11 @@ def _row_space(J: Array, least: float) -> _RowSpace:
 
 def _complement(V: Array) -> Array:
     """An orthonormal basis of what is orthogonal to the columns of V (P, k)."""
+    P, k = V.shape
+    if k == P:  # nothing, as where everything is identified
+        return np.empty((P, 0))
     Q, _ = np.linalg.qr(V, mode="complete")
-    return Q[:, V.shape[1] :]
+    return Q[:, k:]
 
 
 def _span(N: Array, count: int) -> Array:

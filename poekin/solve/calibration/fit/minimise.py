@@ -138,7 +138,9 @@ def _triangular(objective: _Objective, p: Array, rows: Array) -> _Linear:
     inverse = objective.inverse_prior[known]
     B = inverse[:, None] * objective.B[known]
     of_prior = np.column_stack([B, inverse * p[known]])
-    triangle = qr_r(np.concatenate([rows, of_prior]))
+    if len(known):
+        rows = np.concatenate([rows, of_prior])
+    triangle = qr_r(rows)
     R = triangle[: B.shape[1]]
     return _Linear(R[:, :-1], R[:, -1])
 
@@ -228,10 +230,11 @@ def _rows(objective: _Objective, p: Array) -> tuple[Array, Array]:
         whitened = objective.noise.whitened(k, jacobian)
         stacked = whitened.reshape(-1, jacobian.shape[2])
         D = blocked_product(stacked, objective.B)
-        squares = np.sum(e * e, axis=1)
-        weight = loss(objective.loss, squares, width).weight
-        root = np.repeat(np.sqrt(weight), width)
         rows = np.column_stack([D, e.ravel()])
-        weighted.append(root[:, None] * rows)
+        if objective.loss != "linear":  # of which each weight is 1
+            squares = np.sum(e * e, axis=1)
+            weight = loss(objective.loss, squares, width).weight
+            rows *= np.repeat(np.sqrt(weight), width)[:, None]
+        weighted.append(rows)
         plain.append(D)
     return np.concatenate(weighted), np.concatenate(plain)

@@ -144,8 +144,7 @@ class Points(Measurement):
             return self._moved(T, D), []
         seen, twists = seen_from(frame_values[0], T, D)
         jacobian = self._moved(seen, twists)
-        arm, *frames = np.split(jacobian, [-6], axis=2)
-        return arm, frames
+        return jacobian[..., :-6], [jacobian[..., -6:]]
 
     def _moved(self, T: Array, D: Array) -> Array:
         """Velocities (N, 3k, P) of the points under the space twists D (N, 6, P)."""

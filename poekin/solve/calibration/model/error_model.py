@@ -11,7 +11,7 @@ frame of the local form, so the numbers stay small.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -72,6 +72,11 @@ class ErrorModel:
         frames = np.reshape(poses, (-1, 4, 4))
         # (n, 6, 4): columns tilt, tilt, shift, shift
         self._across = se3.adjoint(frames)[..., [0, 1, 3, 4]]
+        # where each parameter stands in `Errors`, and the parts of these
+        masks = [mask.ravel() for mask in self._free]
+        self._places = np.flatnonzero(np.concatenate(masks))
+        ends = [0, *accumulate(map(len, masks))]
+        self._parts = [slice(*pair) for pair in pairwise(ends)]
         self.parameters = names(nominal, self._free, frames)
         if not self.parameters:
             listed = ", ".join(map(repr, kinds))
@@ -84,11 +89,9 @@ class ErrorModel:
 
     def errors(self, p: Array) -> Errors:
         """The parameters by what they move."""
-        parts = [part.ravel() for part in self._free]
-        every = np.zeros(sum(map(len, parts)))
-        every[np.concatenate(parts)] = p
-        ends = np.cumsum([len(part) for part in parts])
-        across, *others = np.split(every, ends[:-1])
+        every = np.zeros(self._parts[-1].stop)
+        every[self._places] = p
+        across, *others = (every[part] for part in self._parts)
         screws = self._across @ across.reshape(-1, 4, 1)
         return Errors(screws[..., 0], *others)
 
