@@ -94,7 +94,7 @@ def fault(result: Any, change: str, k: int) -> str:
         return f"size {size}"
     if change == "tilt" and j.normal > 1e-5:
         return f"tilt shifted by {j.normal} m"
-    if result.equal != (change in ("zero", "flip")) or f"joint {k + 1} " not in result.verdict:
+    if result.same_arm != (change in ("zero", "flip")) or f"joint {k + 1} " not in result.verdict:
         return f"verdict {result.verdict}"
     if result.base is None or result.tool is None:
         return "matches nothing"
@@ -120,7 +120,7 @@ def alignment_fault(result: Any, base: np.ndarray, tool: np.ndarray) -> str:
     """What is wrong with a comparison of an arm with its base or tool moved; empty where it is
     alignment only.
     """
-    if result.differing or not result.equal:
+    if result.differing or not result.same_arm:
         return f"blames {[j.number for j in result.differing]}: {result.verdict}"
     if "aligned" not in result.verdict:
         return f"verdict {result.verdict}"

@@ -16,16 +16,18 @@ from .analysis.dexterity.manipulability import manipulability, manipulability_gr
 from .analysis.dexterity.singularity import singularity
 from .analysis.validate import validate
 from .errors import PoekinError, PoekinWarning
-from .formats import dh, emit, ur
+from .formats import dh, emit, poses, vendors
+from .formats.content.robots import from_text
 from .formats.load import load
 from .formats.objects import from_object
 from .formats.relink import relinked
 from .formats.urdf_text import to_urdf
+from .formats.vendors import ur
 from .formats.xacro import xacro
 from .groups import se3, so3
 from .model import screw
 from .model.chain import Chain
-from .model.joint import Joint, Mimic
+from .model.joint import Joint, Mimic, SafetyController
 from .model.methods.peer_names import OF_PACKAGE, no_attribute
 from .model.robot import Robot
 from .solve import calibration, motion
@@ -42,6 +44,7 @@ __all__ = [
     "PoekinError",
     "PoekinWarning",
     "Robot",
+    "SafetyController",
     "axes",
     "calibrate",
     "calibration",
@@ -54,12 +57,14 @@ __all__ = [
     "errors",
     "follow",
     "from_object",
+    "from_text",
     "ik",
     "ik_all",
     "load",
     "manipulability",
     "manipulability_gradient",
     "motion",
+    "poses",
     "relinked",
     "screw",
     "se3",
@@ -68,6 +73,7 @@ __all__ = [
     "to_urdf",
     "ur",
     "validate",
+    "vendors",
     "xacro",
 ]
 

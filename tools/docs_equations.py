@@ -78,6 +78,7 @@ EQUATIONS: dict[str, str] = {
     ),
     "poekin.formulas.lie.logarithm": _SE3_LOG,
     "poekin.formulas.lie.logarithm.so3": _SO3_LOG,
+    "poekin.formulas.lie.euler": (r"R = R_z(A)\,R_y(B)\,R_x(C), \quad R = R_z(A)\,R_y(B)\,R_z(C)"),
     "poekin.formulas.lie.quaternion": (
         r"4 q q^T = \begin{bmatrix} p & q_v^T \\ q_v & M \end{bmatrix}, \quad p = 1 + \operatorname{tr} R, \quad "
         r"q_v = \operatorname{vee}(R - R^T)"

@@ -18,18 +18,21 @@ from .docs_render import rest
 # they hold.
 PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "models": ("Models: read, make, write", (
-        "load", "xacro", "from_object", "to_urdf", "relinked", "Robot", "Joint", "Mimic",
+        "load", "from_text", "xacro", "from_object", "to_urdf", "relinked", "Robot", "Joint", "Mimic",
+        "SafetyController",
     )),
     "chain": ("Chain: poses, Jacobians, derivatives", ("Chain",)),
     "screw": ("screw: the axes of joints", ("screw",)),
     "so3": ("so3: rotations", ("so3",)),
     "se3": ("se3: poses and twists", ("se3",)),
     "dh": ("dh: Denavit–Hartenberg tables", ("dh",)),
-    "ur": ("ur: factory calibrations of Universal Robots", ("ur",)),
+    "vendors": ("vendors: factory calibrations", ("vendors",)),
+    "ur": ("ur: DH tables of Universal Robots", ("ur",)),
     "compare": ("Compare and judge models", ("compare", "axes", "validate")),
     "dexterity": ("Manipulability and singularities", ("manipulability", "manipulability_gradient", "singularity")),
     "solve": ("Inverse kinematics", ("ik", "ik_all", "follow")),
     "motion": ("motion: paths and timing", ("motion",)),
+    "poses": ("poses: formats of controllers, ROS and spreadsheets", ("poses",)),
     "calibration": ("Calibration", ("calibrate", "choose_poses", "calibration")),
     "emit": ("emit: source code of an arm", ("emit",)),
     "count": ("Operation counts", ("count", "count_table")),

@@ -67,10 +67,11 @@ def topic(quick: bool, say: Say, solve: Solve = ik) -> Topic:
     ]
     return Topic(
         "Inverse kinematics",
-        "Targets are T = f(q) with q uniform within the limits, and over one turn where a joint has none. Starts are "
-        "random, limits are on. Solved means: success is claimed, the pose of q by `fk` is within 1e-9 m and 1e-9 rad "
-        "of the target, and q is within the limits. All of that is computed anew from q: nothing is taken from what a "
-        "solver says about itself. Time is the processor's, a target. poekin solves a batch in one call; Robotics "
+        "Targets are T = f(q) with q uniform within the limits, and over one turn where a joint has none. "
+        "poekin begins near the middle of the limits, all other starts are random; limits are on. Solved means: "
+        "success is claimed, the pose of q by `fk` is within 1e-9 m and 1e-9 rad of the target, and q is within the "
+        "limits. All of that is computed anew from q: nothing is taken from what a solver says about itself. Time is "
+        "the processor's, a target. poekin solves a batch in one call; Robotics "
         "Toolbox and EAIK are compiled and called for each target from Python; Pinocchio's loop is its example's, "
         "in Python. The UR5 is the catalogue's: all joints within ±2π. The Panda has the limits of its URDF.",
         figures=figures,

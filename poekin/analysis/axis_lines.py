@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..groups.arrays import Array
 from ..model.chain import Chain
+from ..model.readings.coupled import own_limits
 
 Marks = NDArray[np.bool_]
 
@@ -99,21 +100,18 @@ def applied(M: Array, x: Array) -> Array:
 
 
 def uncoupled_at_zero(chain: Chain) -> Chain:
-    """The chain with every joint its own coordinate x, x = 0 where q = 0, and limits where one
-    coordinate sets them.
+    """The chain with every joint its own coordinate x, x = 0 where q = 0, and the joints' own limits;
+    velocity limits are left out.
     """
-    C = chain.coupling
     if chain.nontrivial_coupling is None and not chain.offset.any():
         return chain
-    unlimited = [-np.inf, np.inf]
-    limits = np.tile(unlimited, (len(C), 1))
-    for i, row in enumerate(C):
-        leaders = np.flatnonzero(row)
-        if len(leaders) == 1:
-            (k,) = leaders
-            ends = np.sort(row[k] * chain.limits[k])
-            limits[i] = ends + chain.offset[i]
-    bare = chain.replace(coupling=None, q_names=None, limits=limits, offset=None)
+    bare = chain.replace(
+        coupling=None,
+        q_names=None,
+        limits=own_limits(chain),
+        offset=None,
+        velocity_limits=None,
+    )
     if not chain.offset.any():
         return bare
     return bare.rezeroed(chain.offset)

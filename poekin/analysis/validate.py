@@ -13,8 +13,8 @@ from typing import ClassVar
 import numpy as np
 
 from ..checks import whole
-from ..errors import FileError, quote
-from ..formats import catalogue, urdf
+from ..errors import quote
+from ..formats import urdf
 from ..formats.load import load
 from ..formats.urdf_text import to_urdf
 from ..model.chain import Chain
@@ -206,9 +206,10 @@ def validate(
 
     Notes
     -----
-    Where a robot came from a URDF file, Pinocchio reads that file again. Any other (a DH table,
-    MJCF, xacro, a Robot built by hand) goes to Pinocchio as the text of `to_urdf`: then what was
-    read is not judged, but all that is computed from it. A chain that would cross a floating or
+    Where a robot came from a URDF (a file, a text, a pipe, evaluated xacro), Pinocchio reads that
+    very text. Any other (a DH table, MJCF, a Robot that was built or changed since) goes to
+    Pinocchio as the text of `to_urdf`: then what was read is not judged, but all that is computed
+    from it. A chain that would cross a floating or
     planar joint starts at the child link of the last such joint, and what moves above that joint is
     a chain of its own; the notes of the chains say so. Each error is the largest absolute entry of
     a difference, lengths ÷ R.
@@ -351,27 +352,16 @@ def _way(
 
 def _both(robot: Robot | str | os.PathLike[str]) -> tuple[Robot, PinocchioOracle]:
     """poekin's model and Pinocchio's, of the same text; of the model's own as URDF where it did not
-    come from one.
+    come from one, or was changed since.
     """
     if isinstance(robot, str) and robot.lstrip().startswith("<"):
         return urdf.read_text(robot), PinocchioOracle(robot)
     model = robot if isinstance(robot, Robot) else load(robot)
-    if model.source is None or not model.source.origin:
-        return model, PinocchioOracle(to_urdf(model))
-    try:
-        text = _text(model.source.origin)
-    except OSError as error:
-        raise FileError(
-            f"cannot read {model.source.place()} again for Pinocchio: {error.strerror}"
-        ) from error
-    return model, PinocchioOracle(text)
-
-
-def _text(origin: str) -> bytes:
-    """The content of the file that a robot came from; an arm of the built-in catalogue need not be
-    a file at all.
-    """
-    if not os.path.isabs(origin):
-        return catalogue.text(origin)
-    with open(origin, "rb") as stream:
-        return stream.read()
+    if model.coupling:  # Pinocchio knows joints, and so do both
+        model = Robot(model.name, model.links, model.joints, model.source)
+    text: str | bytes = b""
+    if model.source is not None:
+        text = model.source.text
+    if text and urdf.read_text(text, tell=False) == model:
+        return model, PinocchioOracle(text)
+    return model, PinocchioOracle(to_urdf(model))

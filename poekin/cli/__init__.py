@@ -73,8 +73,13 @@ def _invoke(arguments: Sequence[str] | None) -> int:
     from .commands import app
     from .output import complain
 
+    said: set[str] = set()
+
     def show(message: Warning | str, *_: object) -> None:
-        complain(f"warning: {message}")
+        words = str(message)
+        if words not in said:  # a text may be read more than once
+            said.add(words)
+            complain(f"warning: {words}")
 
     if arguments is None:
         arguments = sys.argv[1:]

@@ -14,10 +14,11 @@ import numpy as np
 from ..errors import FileError
 from ..formats.text import csv_rows
 from ..formats.text.atomic_write import reason, write_whole
+from ..solve.motion.csv_io import velocity_columns
 from . import npy
+from .model import STANDARD_INPUT, STDIN, stdin_taken, take_stdin
 from .output import path_text
 
-STDIN = "-"
 TIME = "time"
 ERRORS = ("success", "position_error", "rotation_error")
 """Columns that `ik` and `follow` write beside the coordinates."""
@@ -26,50 +27,50 @@ Rows = tuple[np.ndarray, np.ndarray | None]
 
 def called(given: str) -> str:
     """The place that configurations come from, as messages call it."""
-    if given == STDIN:
-        return "standard input"
+    if given in STDIN:
+        return STANDARD_INPUT
     return path_text(given)
 
 
 def read_configurations(
     given: str,
-    q_names: Sequence[str],
+    columns: csv_rows.Columns,
     progress: csv_rows.Progress,
 ) -> np.ndarray:
     """Configurations (N, m) out of a .npy file or, whatever else its name ends in, a CSV file; "-"
     is CSV on stdin.
 
-    A CSV file has one configuration a line, the m coordinates in the order of q_names, or in the
-    order of a first line that names them all, and maybe what `ik` and `follow` write beside them.
-    Empty lines are passed over.
+    A CSV file has one configuration a line, the m coordinates in the order of the columns, or in
+    the order of a first line that names them all, and maybe what `ik` and `follow` write beside
+    them. Empty lines are passed over.
 
     Raises: FileError for a file that cannot be read; InputError with file and line for a line of
     the wrong length or
     a cell that is no number; UnknownName for a header with a name that is no coordinate.
     """
-    return read_rows(given, q_names, "coordinate", progress, besides=(TIME, *ERRORS))[0]
+    besides = (TIME, *ERRORS, *velocity_columns(columns.names))
+    return read_rows(given, columns._replace(besides=besides), progress)[0]
 
 
 def read_rows(
     given: str,
-    names: Sequence[str],
-    what: str,
+    columns: csv_rows.Columns,
     progress: csv_rows.Progress,
     *,
     tail: tuple[int, ...] = (),
-    besides: Sequence[str] = (),
 ) -> Rows:
     """Rows (N, k) of named columns, and the line of each in a CSV file, None for a .npy file.
 
-    Parameters: given, names and errors as in `read_configurations`; what, a column's kind; tail,
-    last axes that an array may have instead of (k,); besides, columns that are passed over.
+    Parameters: given and errors as in `read_configurations`; columns; tail, last axes that an array
+    may have instead of (k,).
     """
-    if given == STDIN and sys.stdin is None:
-        raise FileError("cannot read standard input: it is closed")
+    if given in STDIN:
+        take_stdin("--input")
     try:
         if Path(given).suffix.lower() == ".npy":
-            return npy.configurations(_content(given), len(names), called(given), tail), None
-        return _from_csv(given, names, what, progress, besides)
+            count = len(columns.names)
+            return npy.configurations(_content(given), count, called(given), tail), None
+        return _from_csv(given, columns, progress)
     except OSError as error:
         if isinstance(error, FileError):
             raise
@@ -93,16 +94,14 @@ def _content(given: str) -> bytes:
 
 def _from_csv(
     given: str,
-    names: Sequence[str],
-    what: str,
+    columns: csv_rows.Columns,
     progress: csv_rows.Progress,
-    besides: Sequence[str],
 ) -> Rows:
     file: str | int = given
-    if given == STDIN:
+    if given in STDIN:
         file = sys.stdin.fileno()
     with csv_rows.opened(file, called(given)) as (stream, where, size):
-        return csv_rows.read(stream, names, where, what, progress, size, besides=besides)
+        return csv_rows.read(stream, columns, where, progress, size)
 
 
 def npy_bytes(array: np.ndarray) -> bytes:
@@ -155,17 +154,23 @@ def check_place(path: Path, endings: Sequence[str]) -> None:
 
 
 def check_apart(results: Iterable[Path | None], **read: str | Sequence[str] | None) -> None:
-    """Refuse to write over a file that is read, or two results into one file.
+    """Refuse to write over a file that is read, two results into one file, or to read standard
+    input twice.
 
     Parameters: results, the places to write to; read, the files that are read, by what they hold.
-    Raises: FileError.
+    Raises: FileError, InputError.
     """
     taken: dict[object, str] = {}
+    stdin = ""
     for what, given in read.items():
         names = given or ()
         if isinstance(names, str):
             names = [names]
         for name in names:
+            if name in STDIN and stdin:
+                raise stdin_taken(what, stdin)
+            if name in STDIN:
+                stdin = what
             taken[_file_identity(name)] = f"it is the file of the {what}"
     taken.pop(None, None)
     for path in filter(None, results):
@@ -178,7 +183,7 @@ def check_apart(results: Iterable[Path | None], **read: str | Sequence[str] | No
 def _file_identity(name: str | Path) -> tuple[int, int] | None:
     """Device and inode, common to all names of one regular file; None for anything else."""
     try:
-        if name == STDIN:
+        if name in STDIN:
             status = os.fstat(sys.stdin.fileno())
         else:
             status = os.stat(name)

@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from . import conform, warm
-from .calibration import calibrate
+from . import list as names
+from .calibration import apply, calibrate
 from .kinematics import fk, follow, ik, jacobian, singularity
 from .model import takes_models
 from .models import axes, compare, count, dh, emit, info, urdf, validate
@@ -21,8 +22,8 @@ app = typer.Typer(
 )
 
 COMMANDS: tuple[ModuleType, ...] = (
-    *(info, fk, jacobian, singularity, ik, follow, calibrate, validate, urdf, compare, conform),
-    *(axes, dh, count, emit, warm),
+    *(info, fk, jacobian, singularity, ik, follow, calibrate, apply, validate, urdf, compare),
+    *(conform, axes, dh, count, emit, names, warm),
 )
 # Unknown options of these pass through to q, so that -0.5 is a number; there are no one-letter
 # options that it could be.
@@ -30,7 +31,7 @@ TAKE_NUMBERS = (fk, jacobian, singularity, ik)
 
 for module in COMMANDS:
     run = module.command
-    if module not in (conform, warm):
+    if module not in (conform, names, warm):
         run = takes_models(run)
     settings = {"ignore_unknown_options": module in TAKE_NUMBERS}
     app.command(module.__name__.rpartition(".")[2], context_settings=settings)(run)

@@ -1,21 +1,32 @@
-"""Robots out of the FILE arguments of commands, read by `load` or, on request, by xacro."""
+"""Robots out of the FILE arguments of commands: files, names, pipes, on request xacro."""
 
 from __future__ import annotations
 
 import functools
+import hashlib
 import inspect
 import os
+import sys
 from collections.abc import Callable, Sequence
 from contextvars import ContextVar
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Annotated, Any
 
 from typer import Option
 
-from ..errors import InputError, quote, suggest
+from ..errors import FileError, InputError, quote, suggest
+from ..formats.content import compressed, pipes
+from ..formats.content.robots import from_text
 from ..formats.load import load
+from ..formats.ros import packages
 from ..formats.xacro import is_xacro
 from ..formats.xacro import xacro as evaluate_xacro
 from ..model.robot import Robot
+
+STDIN = ("-", "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0")
+"""Names of standard input."""
+STANDARD_INPUT = "standard input"
 
 XACRO_HELP = "Evaluate each FILE that is xacro: this runs the expressions in it, so only do it with files you trust."
 Xacro = Annotated[bool, Option("--xacro", help=XACRO_HELP)]
@@ -27,18 +38,129 @@ Given = Annotated[
         help="With --xacro: the value of a <xacro:arg>; may be repeated.",
     ),
 ]
-OPTIONS = ("--xacro", "--xacro-arg")
+Coupling = Annotated[
+    list[str] | None,
+    Option(
+        "--coupling",
+        metavar="'J3 = J2 + J3'",
+        help="A joint of each FILE as a sum of readings, which Q then are; may be repeated.",
+    ),
+]
+OPTIONS = ("--xacro", "--xacro-arg", "--coupling")
 
-# The values of --xacro-arg while a command with --xacro runs, else None.
-_arguments: ContextVar[dict[str, str] | None] = ContextVar("xacro arguments", default=None)
+
+@dataclass
+class _Run:
+    """Run of a command.
+
+    Fields: arguments, the values of --xacro-arg, None without --xacro; coupling, those of
+    --coupling; stdin, what standard input was read for; digests, the SHA-256 of what came through a
+    pipe, which can be read once only, by the name of the argument.
+    """
+
+    arguments: dict[str, str] | None = None
+    coupling: Sequence[str] = ()
+    stdin: str = ""
+    digests: dict[str, str] = field(default_factory=dict)
+
+
+_current: ContextVar[_Run | None] = ContextVar("run of a command", default=None)
 
 
 def model(file: str) -> Robot:
-    """The robot that a FILE argument names. Raises: what `load` and `xacro` raise."""
-    arguments = _arguments.get()
-    if arguments is not None and os.path.isfile(file) and is_xacro(file):
-        return evaluate_xacro(file, **arguments)
+    """The robot that a FILE argument names, its readings coupled as --coupling says. Raises: what
+    `load`, `xacro` and `Robot.coupled` raise.
+    """
+    statements = _run().coupling
+    robot = _loaded(file)
+    if not statements:
+        return robot
+    try:
+        return robot.coupled(statements)
+    except InputError as fault:
+        raise InputError(f"--{fault}") from fault
+
+
+def _loaded(file: str) -> Robot:
+    """The robot, with its joints' own values."""
+    arguments = _run().arguments
+    if file in STDIN or pipes.is_pipe(file):
+        content = _piped(file)
+        if arguments is not None and b"<xacro:" in content:
+            raise InputError(
+                "--xacro: what is included is looked for from the file, and a pipe is none: give "
+                "the file, or evaluate it before the pipe (xacro FILE | poekin ... -)"
+            )
+        return from_text(content, called(file))
+    path = os.fspath(packages.local_path(file))
+    if arguments is not None and os.path.isfile(path) and is_xacro(path):
+        return evaluate_xacro(path, **arguments)
     return load(file)
+
+
+def called(file: str) -> str:
+    """A FILE argument as messages call it."""
+    if file in STDIN:
+        return STANDARD_INPUT
+    return file
+
+
+def origin(file: str) -> str:
+    """Words for where a model came from: the file, or pipe, with its checksum; none of a name."""
+    digest = _run().digests.get(file)
+    if digest:
+        kind = STANDARD_INPUT if file in STDIN else "a pipe"
+        return f"{kind} with the SHA-256 {digest}"
+    path = Path(compressed.split(packages.local_path(file))[0])
+    if not path.is_file():
+        return ""
+    return f"file {path.name} with the SHA-256 {_sha256(path.read_bytes())}"
+
+
+def take_stdin(what: str) -> None:
+    """Take standard input for one argument of a command, which no other has then.
+
+    Parameters: what, the argument, as messages call it. Raises: InputError where it is taken;
+    FileError where it is closed.
+    """
+    run = _run()
+    if run.stdin:
+        raise stdin_taken(what, run.stdin)
+    if sys.stdin is None:
+        raise FileError("cannot read standard input: it is closed")
+    run.stdin = what
+
+
+def stdin_taken(what: str, other: str) -> InputError:
+    """Error of an argument whose standard input another one has."""
+    return InputError(
+        f"{what}: standard input is read for the {other} already: "
+        "only one argument of a command can be -"
+    )
+
+
+def _piped(file: str) -> bytes:
+    if file in STDIN:
+        take_stdin("model")
+        if sys.stdin.isatty():
+            raise InputError(
+                "a model on standard input: expected a pipe or a file, got a terminal: "
+                "as in xacro arm.urdf.xacro | poekin info -"
+            )
+        content = pipes.read_stream(sys.stdin.buffer, STANDARD_INPUT)
+    else:
+        content = pipes.read(file)
+    _run().digests[file] = _sha256(content)
+    return content
+
+
+def _run() -> _Run:
+    """Record of the command that runs; outside of any, one that nobody keeps."""
+    return _current.get() or _Run()
+
+
+def _sha256(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
 
 
 def refuse_options(words: Sequence[str], options: Sequence[str]) -> None:
@@ -50,13 +172,16 @@ def refuse_options(words: Sequence[str], options: Sequence[str]) -> None:
 
 
 def takes_models(command: Callable[..., None]) -> Callable[..., None]:
-    """Command with the options --xacro and --xacro-arg, which `model` obeys while it runs."""
+    """Command with the options --xacro, --xacro-arg and --coupling, which `model` obeys while it
+    runs.
+    """
 
     @functools.wraps(command)
     def run(
         *args: Any,
         xacro: bool = False,
         xacro_arg: Sequence[str] | None = None,
+        coupling: Sequence[str] | None = None,
         **options: Any,
     ) -> None:
         if xacro_arg and not xacro:
@@ -64,11 +189,11 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
         values = None
         if xacro:
             values = dict(map(_pair, xacro_arg or ()))
-        before = _arguments.set(values)
+        before = _current.set(_Run(values, coupling or ()))
         try:
             command(*args, **options)
         finally:
-            _arguments.reset(before)
+            _current.reset(before)
 
     # Typer makes the options out of the signature and the annotations.
     own = inspect.signature(command, eval_str=True)
@@ -79,7 +204,11 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
             default=default,
             annotation=annotation,
         )
-        for name, default, annotation in (("xacro", False, Xacro), ("xacro_arg", None, Given))
+        for name, default, annotation in (
+            ("xacro", False, Xacro),
+            ("xacro_arg", None, Given),
+            ("coupling", None, Coupling),
+        )
     ]
     whole = own.replace(parameters=[*own.parameters.values(), *more])
     vars(run)["__signature__"] = whole

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from ..errors import ModelError, PoekinError
 from ..model.chain import Chain
 from ..model.robot import Robot
@@ -16,15 +18,18 @@ FORMAT = "poekin calibration"
 """`format` in the file of a calibration (`poekin.solve.calibration.report.toml_io`)."""
 VERSION = 1
 """`version` in the file of a calibration."""
+NOMINAL = "nominal"
 CALIBRATED = "calibrated"
-"""Key of the calibrated chain in the file of a calibration."""
+"""Keys of the nominal and of the calibrated chain in the file of a calibration."""
 _NAMES = ("base", "tip", "joint_names", "q_names")
 _ARRAYS = ("screws", "home", "limits", "offset")
-_KEYS = (*_NAMES, *_ARRAYS, "coupling", "pitches")
+_KEYS = (*_NAMES, *_ARRAYS, "coupling", "pitches", "velocity_limits")
 
 
 def to_data(chain: Chain) -> dict[str, Any]:
-    """Table of a chain: frames, names, screws, home pose, limits, offset; coupling and pitches."""
+    """Table of a chain: frames, names, screws, home pose, limits, offset; coupling, pitches and velocity
+    limits where there are such.
+    """
     data: dict[str, Any] = {
         "base": chain.base,
         "tip": chain.tip,
@@ -36,6 +41,8 @@ def to_data(chain: Chain) -> dict[str, Any]:
         data["coupling"] = chain.nontrivial_coupling.tolist()
     if chain.pitches.any():
         data["pitches"] = chain.pitches.tolist()
+    if np.isfinite(chain.velocity_limits).any():
+        data["velocity_limits"] = chain.velocity_limits.tolist()
     return data
 
 
@@ -51,6 +58,8 @@ def to_chain(keys: Keys) -> Chain:
     optional = {"coupling": (n, m), "pitches": (n,)}
     given = (key for key in optional if key in keys.data)
     arrays = {key: keys.array(key, optional[key]) for key in given}
+    if "velocity_limits" in keys.data:
+        arrays["velocity_limits"] = keys.array("velocity_limits", (m,), finite=False)
     try:
         return Chain.from_space(
             keys.array("screws", (n, 6)),
@@ -81,7 +90,11 @@ def opened(path: FilePath) -> Keys:
     """The file of a calibration, of a version that is known. Raises: FileError; ModelError with
     file and key.
     """
-    text, place = xml.read_text(path)
+    return opened_text(*xml.read_text(path))
+
+
+def opened_text(text: str, place: str) -> Keys:
+    """The text of such a file; place is what messages call it. Raises: ModelError."""
     keys = Keys(toml_text.parse(text, place), place)
     keys.text("format", (FORMAT,))
     if keys.whole("version") != VERSION:
@@ -92,13 +105,30 @@ def opened(path: FilePath) -> Keys:
     return keys
 
 
+def read_chains(path: FilePath) -> tuple[Chain | None, Chain]:
+    """The nominal and the calibrated chain in the file of a calibration, None without a nominal one.
+
+    Raises: FileError; ModelError with file and key.
+    """
+    keys = opened(path)
+    nominal = None
+    if NOMINAL in keys.data:
+        nominal = to_chain(keys.table(NOMINAL))
+    return nominal, to_chain(keys.table(CALIBRATED))
+
+
 def read(path: FilePath) -> Robot:
     """The robot of one branch that moves as the calibrated chain in the file of a calibration.
 
     Raises: FileError; ModelError with file and key. Warns: as `serial_robot`, where q is not that
     of the chain.
     """
-    keys = opened(path)
+    return read_text(*xml.read_text(path))
+
+
+def read_text(text: str, place: str) -> Robot:
+    """The robot in the text of such a file. Raises and warns: as `read`."""
+    keys = opened_text(text, place)
     chain = to_chain(keys.table(CALIBRATED))
     try:
         return serial_robot(chain)

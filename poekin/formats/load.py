@@ -15,14 +15,17 @@ from ..errors import (
     quote,
 )
 from ..model.robot import Robot
-from . import catalogue, chain_toml, dh, erd, ur, urdf
+from . import catalogue, chain_toml, dh, erd, urdf, vendors
+from .content import compressed, kinds, pipes, robots
 from .dh.published_tables import NAMES as TABLES
 from .mjcf import mjcf
+from .ros import description, packages
+from .text import xml
 from .text.atomic_write import FilePath
 
 PREFIX = "erd:"
 BUILT_IN = tuple(sorted({*catalogue.NAMES, *TABLES}))
-ENDINGS = (".urdf", ".xml", ".xacro", ".toml", ".csv", ".yaml", ".yml")
+ENDINGS = (".urdf", ".xml", ".xacro", ".toml", ".csv", *vendors.yaml_io.ENDINGS)
 """Endings of a name that means a file, whether there is one or not."""
 
 
@@ -33,10 +36,14 @@ def load(name: FilePath) -> Robot:
     ----------
     name : str or os.PathLike
         The path of an existing file: a URDF; an MJCF (.xml with the root <mujoco>, extra `mjcf`); a
-        DH table (.toml, .csv); a file of `Calibration.save` (.toml, the calibrated chain); or a
-        calibration of Universal Robots (.yaml, .yml). Else the name of a built-in arm ("panda",
+        DH table (.toml, .csv); a file of `Calibration.save` (.toml, the calibrated chain); a
+        factory calibration of a vendor (.yaml, .yml; see `poekin.vendors.read`); the text of
+        /robot_description as ROS prints it; one of these as .gz; a .zip with one .urdf in it, or
+        "models.zip/arm.urdf"; or a pipe. "package://NAME/PATH" is a file in a package of ROS, which
+        AMENT_PREFIX_PATH or ROS_PACKAGE_PATH leads to. Else the name of a built-in arm ("panda",
         "ur5e", "puma560", ...). Else "erd:" and the name of a robot of the package
-        example-robot-data, as in "erd:talos_left_arm". A path object is always a path.
+        example-robot-data, as in
+        "erd:talos_left_arm". A path object is always a path.
 
     Returns
     -------
@@ -78,7 +85,9 @@ def load(name: FilePath) -> Robot:
         return _read(name)
     if not isinstance(name, str):
         raise InputError(f"load: expected a name or a path, got {type(name).__name__}")
-    if _exists(name) and not os.path.isdir(name):
+    if name.startswith(packages.SCHEME):
+        return _read(packages.local_path(name))
+    if (os.path.exists(name) and not os.path.isdir(name)) or compressed.split(name)[1]:
         return _read(name)
     if name in catalogue.NAMES:
         return catalogue.read(name)
@@ -86,7 +95,7 @@ def load(name: FilePath) -> Robot:
         return dh.to_robot(dh.published(name))
     if name.startswith(PREFIX):
         return erd.read(name.removeprefix(PREFIX))
-    if _exists(name):
+    if os.path.exists(name):
         return urdf.read(name)
     if "/" in name or os.sep in name or name.lower().endswith(ENDINGS):
         raise FileError(f"{escape_unprintable(name, 400)}: no such file{_available(name)}")
@@ -96,7 +105,10 @@ def load(name: FilePath) -> Robot:
 def _available(name: str) -> str:
     """End of a message: the names closest to one that nothing has, and all that are built in."""
     stem = os.path.splitext(os.path.basename(name))[0]
-    close = close_names(stem, BUILT_IN) or close_names(name, _example_robots())
+    close: list[str] = []
+    if not name.casefold().startswith(PREFIX):
+        close = close_names(stem, BUILT_IN)
+    close = close or close_names(name, _example_robots())
     guess = ""
     if close:
         guess = f"; did you mean {' or '.join(map(quote, close))}?"
@@ -111,13 +123,19 @@ def _example_robots() -> list[str]:
 
 
 def _read(path: FilePath) -> Robot:
+    if pipes.is_pipe(path):
+        return robots.from_content(pipes.read(path), os.fsdecode(path))
+    archive, member = compressed.split(path)
+    if member:
+        content = xml.read_bytes(archive)
+        return robots.from_content(content, archive, member=member)
     name = os.fsdecode(path).lower()
     if name.endswith(".toml") and chain_toml.is_calibration(path):
         return chain_toml.read(path)
     if name.endswith((".toml", ".csv")):
         return dh.to_robot(dh.read(path))
-    if name.endswith((".yaml", ".yml")):
-        return ur.read(path).to_robot()
+    if name.endswith(vendors.yaml_io.ENDINGS) and not _holds_description(path):
+        return vendors.read(path).to_robot()
     if name.endswith(".xml") and mjcf.is_mjcf(path):
         return mjcf.read(path)
     if name.endswith(".xacro"):
@@ -125,11 +143,18 @@ def _read(path: FilePath) -> Robot:
             f"{escape_unprintable(os.fsdecode(path), 400)}: xacro evaluates expressions that are in the file,"
             " which load never does: pk.xacro(path) does, and --xacro on the command line"
         )
-    return urdf.read(path)
+    return _read_by_content(path)
 
 
-def _exists(name: str) -> bool:
-    try:
-        return os.path.exists(name)
-    except ValueError:  # a zero byte, which no path has
-        return False
+def _holds_description(path: FilePath) -> bool:
+    content = xml.read_bytes(path)
+    return description.is_in(content.decode("utf-8", "replace"))
+
+
+def _read_by_content(path: FilePath) -> Robot:
+    """Robot of a file whose ending does not say what it is: a URDF where its beginning does not."""
+    content = xml.read_bytes(path)
+    name = os.fsdecode(path)
+    if compressed.is_compressed(content) or kinds.kind_of(content) not in (None, "xml"):
+        return robots.from_content(content, name)
+    return urdf.read_text(description.without_mark(content, name), name)

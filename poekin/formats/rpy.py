@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..formulas.lie import euler
 from ..groups import rpy
 
 
@@ -21,20 +22,18 @@ def pose(
     Source: the URDF specification, element <origin>.
     """
     roll, pitch, yaw = turns
-    sr = math.sin(roll)
-    cr = math.cos(roll)
-    sp = math.sin(pitch)
-    cp = math.cos(pitch)
-    sy = math.sin(yaw)
-    cy = math.cos(yaw)
-    return np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, xyz[0]],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr, xyz[1]],
-            [-sp, cp * sr, cp * cr, xyz[2]],
-            [0.0, 0.0, 0.0, 1.0],
-        ]
+    R = euler.zyx(
+        math.sin(yaw),
+        math.cos(yaw),
+        math.sin(pitch),
+        math.cos(pitch),
+        math.sin(roll),
+        math.cos(roll),
     )
+    T = np.eye(4)
+    T[:3, :3] = np.reshape(R, (3, 3))
+    T[:3, 3] = xyz
+    return T
 
 
 def angles(R: Sequence[Sequence[float]] | np.ndarray) -> tuple[float, float, float]:
@@ -43,4 +42,25 @@ def angles(R: Sequence[Sequence[float]] | np.ndarray) -> tuple[float, float, flo
     Accuracy: as there. Source: the URDF specification, element <origin>.
     """
     roll, pitch, yaw = rpy.angles(np.asarray(R, float)).tolist()
+    return roll, pitch, yaw
+
+
+def nearest_angles(
+    R: Sequence[Sequence[float]] | np.ndarray,
+    near: Sequence[float],
+) -> tuple[float, float, float]:
+    """(roll, pitch, yaw) [rad] of a rotation (3, 3), of all that there are those nearest to others.
+
+    (r, p, y) and (r + pi, pi - p, y + pi) are one rotation, and so is either with whole turns
+    added. Accuracy: as `angles`, and 4e-16 for each turn. Source: the URDF specification, element
+    <origin>.
+    """
+    r, p, y = angles(R)
+    found = []
+    for branch in ((r, p, y), (r + math.pi, math.pi - p, y + math.pi)):
+        turned = [
+            x + math.tau * round((x0 - x) / math.tau) for x, x0 in zip(branch, near, strict=True)
+        ]
+        found.append(turned)
+    roll, pitch, yaw = min(found, key=lambda turned: math.dist(turned, near))
     return roll, pitch, yaw

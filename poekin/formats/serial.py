@@ -18,6 +18,8 @@ from ..model.chain import Chain
 from ..model.joint import Joint, Mimic
 from ..model.kinematics.arm import Arm, chain_of
 from ..model.provenance import warn
+from ..model.readings.coupled import OwnReadings, joint_limits, joint_speeds, own_readings
+from ..model.readings.statements import make_statements
 from ..model.robot import Robot
 from .common.limits import UNBOUNDED, Interval
 from .common.names import free_name
@@ -26,7 +28,7 @@ from .common.names import free_name
 class Value(NamedTuple):
     """Value of joint i of the chain from the value y of the robot's joint: x = sign y + start.
 
-    Fields: sign, start; limits of y; mimic, of y; moves, False where x is constant.
+    Fields: sign, start; limits of y; mimic, of y; moves, False where x is constant; velocity limit.
     """
 
     sign: float = 1.0
@@ -34,6 +36,7 @@ class Value(NamedTuple):
     limits: Interval = UNBOUNDED
     mimic: Mimic | None = None
     moves: bool = True
+    velocity: float = math.inf
 
 
 def serial_robot(chain: Arm) -> Robot:
@@ -48,10 +51,13 @@ def serial_robot(chain: Arm) -> Robot:
     its c moved into its origin and its axis turned round, so that the values of q stay what they
     are. If none has that either, the first that follows it is, and the robot's coordinate is that
     joint's own x. A joint that follows no coordinate becomes a fixed one. Limits of masters are
-    those of the chain to the last digit; a follower's are as wide as its master's leave it.
+    those of the chain to the last digit, velocity limits too; a follower's are as wide as its master's
+    leave it.
 
     Parameters: chain. Returns: Robot, called BASE_to_TIP; its q is in order of first appearance.
-    Raises: InputError for a joint that follows several coordinates, for base and tip of the same
+    Where a joint follows several readings of the joints' own names, the robot's joints have their
+    own values, and its readings are coupled.
+    Raises: InputError for a joint that follows several other coordinates, for base and tip of the same
     name, and for what is no chain. Warns: PoekinWarning where q is no longer the same: another
     scale, another order, a coordinate left out because no joint follows it.
     Accuracy: that of the local form; about 1e-16 reach a joint. Source: Park 1994, Section IV.
@@ -65,6 +71,9 @@ def serial_robot(chain: Arm) -> Robot:
             f"the chain's base and tip are both called {quote(chain.base)}, and two links cannot be: give one another"
             ' name, as in chain.retooled(np.eye(4), tip="tool")'
         )
+    readings = own_readings(chain)
+    if readings is not None:
+        return _coupled(chain, readings)
     ends = {chain.base, chain.tip}
     links = [
         chain.base,
@@ -85,6 +94,21 @@ def serial_robot(chain: Arm) -> Robot:
             + "; ".join(changes)
         )
     return robot
+
+
+def _coupled(chain: Chain, readings: OwnReadings) -> Robot:
+    """The robot of the joints' own values, with the coupling of its readings: these keep their
+    limits wherever joints can have some that leave them; a joint's speed is one within which they
+    keep theirs.
+    """
+    K = readings.K
+    own = chain.replace(
+        coupling=np.eye(len(K)),
+        q_names=chain.joint_names,
+        limits=joint_limits(K, readings.limits),
+        velocity_limits=joint_speeds(K, readings.velocity_limits),
+    )
+    return serial_robot(own).coupled(make_statements(K, chain.joint_names))
 
 
 def _joint(
@@ -117,6 +141,7 @@ def _joint(
         value.limits,
         value.mimic,
         pitch,
+        value.velocity,
     )
 
 
@@ -144,12 +169,16 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
         ratio = ratios[master]
         shift = c[master]
         lower, upper = chain.limits[k].tolist()
+        velocity = float(chain.velocity_limits[k])
         if abs(ratio) == 1.0:
-            values[master] = Value(ratio, shift, (lower, upper))
+            values[master] = Value(ratio, shift, (lower, upper), velocity=velocity)
             ratio = 1.0
             shift = 0.0
         else:
-            values[master] = Value(limits=_image((lower, upper), ratio, shift))
+            values[master] = Value(
+                limits=_image((lower, upper), ratio, shift),
+                velocity=_faster(velocity, ratio),
+            )
             changes.append(
                 f"in the place of {quote(q_name)} is {quote(name)} = {ratio!r} {quote(q_name)} + {shift!r}"
             )
@@ -157,10 +186,17 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
             if i != master:
                 multiplier = own / ratio
                 mimic = Mimic(name, multiplier, c[i] - multiplier * shift)
-                image = _image(values[master].limits, mimic.multiplier, mimic.offset)
-                values[i] = Value(limits=image, mimic=mimic)
+                values[i] = _follower(values[master], mimic)
         masters.append(name)
     return values, masters, changes
+
+
+def _follower(master: Value, mimic: Mimic) -> Value:
+    return Value(
+        limits=_image(master.limits, mimic.multiplier, mimic.offset),
+        mimic=mimic,
+        velocity=_faster(master.velocity, mimic.multiplier),
+    )
 
 
 def _master(
@@ -174,6 +210,11 @@ def _master(
         return ratio != 1 or shifts[i] != 0, ratio != 1, ratio != -1
 
     return min(sorted(ratios), key=rank)
+
+
+def _faster(velocity: float, ratio: float) -> float:
+    """Velocity limit of ratio y, wide enough that seen from y it is no less than that of y."""
+    return _image((-velocity, velocity), ratio, 0.0)[1]
 
 
 def _image(limits: Interval, ratio: float, shift: float) -> Interval:

@@ -7,7 +7,11 @@ real ones do:
 - limits that are missing, equal, infinite, absurd (1e4 and more) or lower above upper mean
   "unlimited", with one warning for the file. A bound that is missing alone is unlimited on its side. Continuous joints
   have no limits;
-- of two <axis>, <origin> or <limit> in a joint the first counts, with a warning;
+- a velocity or effort that is missing, 0 or negative is not known, nor is a velocity of 1e4 or an
+  effort of 1e16 and more; a number that <dynamics> or <safety_controller> leaves out is 0, as is a
+  negative damping;
+- of two <axis>, <origin>, <limit>, <dynamics> or <safety_controller> in a joint the first counts,
+  with a warning;
 - an <origin> may have quat_xyzw in place of rpy where <robot> says version="1.1" or later; before
   that, nobody reads it, and a warning says so;
 - a joint that mimics one that does not exist stays independent, with a warning;
@@ -25,14 +29,24 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from ..errors import ModelError, quote
+from ..formulas.lie import quaternion
+from ..groups import se3
 from ..groups.arrays import Array
 from ..model.checks import LONGEST
-from ..model.joint import FREE, KINDS, MOVING, Joint, JointKind, Mimic
+from ..model.joint import FREE, KINDS, MOVING, Joint, JointKind, Mimic, SafetyController
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import rpy
-from .common.limits import ABSURD, UNBOUNDED, Interval, without_absurd
-from .text import pose_rows, xml
+from .common.limits import (
+    ABSURD,
+    UNBOUNDED,
+    Interval,
+    known_effort,
+    known_loss,
+    known_velocity,
+    without_absurd,
+)
+from .text import xml
 from .text.atomic_write import FilePath
 from .text.numbers import real
 from .text.xml_reader import Fields
@@ -41,6 +55,7 @@ from .text.xml_reader import Fields
 AXIS_TOLERANCE = 1e-6
 URDF_KINDS = tuple(kind for kind in KINDS if kind != "helical")
 _ZERO = (0.0, 0.0, 0.0)
+_OF_CONTROLLERS = ("k_velocity", "k_position", "soft_lower_limit", "soft_upper_limit")
 
 
 class Repair(NamedTuple):
@@ -69,22 +84,21 @@ def read(path: FilePath) -> Robot:
     PoekinWarning with file and line for what was repaired (see the top of this module).
     Accuracy: origins to rounding, rotations orthonormal to 1e-15.
     """
-    text = xml.read_bytes(path)
-    name = os.fsdecode(path)
-    return read_text(text, name, os.path.abspath(name))
+    return read_text(xml.read_bytes(path), os.fsdecode(path))
 
 
 def read_text(
     text: str | bytes,
     name: str = "<text>",
-    origin: str = "",
+    *,
+    tell: bool = True,
 ) -> Robot:
-    """The robot in the text of a URDF; `name` stands for the file in messages; origin as in
-    `Source`.
+    """The robot in the text of a URDF; `name` stands for the file in messages; tell, whether to
+    warn of repairs.
 
     Raises and warns as `read`; InputError where text is neither str nor bytes, or name no str.
     """
-    root = xml.parse(text, name)
+    root = xml.parse(text, name, tell=tell)
     source = Source(name)
     top = Fields(root, source)
     if top.tag != "robot":
@@ -101,7 +115,7 @@ def read_text(
     if not links:
         raise top.fault("expected at least one <link>, there is none")
     repairs = Repairs([], [], [], [], [])
-    quaternions = (real(root.get("version") or "") or 1.0) >= 1.1
+    quaternions = reads_quaternions(root.get("version"))
     elements = top.all("joint")
     joints = [_joint(fields, repairs, quaternions) for fields in elements]
     known = {joint.name for joint in joints}
@@ -113,13 +127,19 @@ def read_text(
         name,
         tuple(link.line for link in links),
         tuple(fields.line for fields in elements),
-        origin,
+        text if isinstance(text, str) else bytes(text),
     )
     stem = os.path.splitext(os.path.basename(name))[0]
     names = [link.name("name") for link in links]
     robot = Robot(root.get("name") or stem, names, joints, lines)
-    _warn(repairs, source)
+    if tell:
+        _warn(repairs, source)
     return robot
+
+
+def reads_quaternions(version: str | None) -> bool:
+    """Whether quat_xyzw of an <origin> counts, by the version of <robot>."""
+    return (real(version or "") or 1.0) >= 1.1
 
 
 def _joint(fields: Fields, repairs: Repairs, quaternions: bool) -> Joint:
@@ -136,8 +156,12 @@ def _joint(fields: Fields, repairs: Repairs, quaternions: bool) -> Joint:
     moving: dict[str, Any] = {}
     if kind in MOVING or kind == "planar":
         moving["axis"] = _axis(fields, repairs)
+    limit = _first(fields, "limit", repairs)
     if kind in ("revolute", "prismatic"):
-        moving["limits"] = _limits(fields, name, repairs)
+        moving["limits"] = _limits(fields, limit, name, repairs)
+    if limit is not None:
+        moving["velocity"] = known_velocity(limit.number("velocity", finite=False))
+        moving["effort"] = known_effort(limit.number("effort", finite=False))
     return Joint(
         name,
         cast("JointKind", kind),
@@ -145,7 +169,9 @@ def _joint(fields: Fields, repairs: Repairs, quaternions: bool) -> Joint:
         ends[1],
         _origin(_first(fields, "origin", repairs), repairs, quaternions),
         mimic=_mimic(fields, kind),
+        safety_controller=_safety_controller(fields, repairs),
         **moving,
+        **_dynamics(fields, repairs),
     )
 
 
@@ -165,8 +191,8 @@ def _origin(element: Fields | None, repairs: Repairs, quaternions: bool) -> Arra
     if max(map(abs, xyz)) > LONGEST:
         raise element.fault(f"xyz: expected lengths of at most {LONGEST:g} m, got {xyz}")
     turns = element.vector("rpy")
-    quaternion = element.numbers("quat_xyzw", 4)
-    if quaternion is None:
+    turn = element.numbers("quat_xyzw", 4)
+    if turn is None:
         return rpy.pose(xyz, turns or _ZERO)
     if not quaternions:
         text = f'{element.what}: quat_xyzw is not read: it needs <robot version="1.1">'
@@ -174,14 +200,12 @@ def _origin(element: Fields | None, repairs: Repairs, quaternions: bool) -> Arra
         return rpy.pose(xyz, turns or _ZERO)
     if turns is not None:
         raise element.fault("either rpy or quat_xyzw expected, got both")
-    largest = max(map(abs, quaternion))
+    largest = max(map(abs, turn))
     if not largest:
         raise element.fault("quat_xyzw must not be zero")
-    quaternion = [x / largest for x in quaternion]  # whose squares are neither 0 nor infinite
-    length = math.hypot(*quaternion)
-    unit = (x / length for x in quaternion)
-    row = np.array([[*xyz, *unit]])
-    return pose_rows.to_poses(row, "7", "xyzw", lambda _: element.what)[0]
+    x, y, z, w = (part / largest for part in turn)  # whose squares are neither 0 nor infinite
+    R = np.reshape(quaternion.rotation(w, x, y, z), (3, 3))
+    return se3.pose(R, xyz)
 
 
 def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
@@ -200,8 +224,27 @@ def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
     return axis
 
 
-def _limits(fields: Fields, name: str, repairs: Repairs) -> Interval:
-    element = _first(fields, "limit", repairs)
+def _dynamics(fields: Fields, repairs: Repairs) -> dict[str, float]:
+    element = _first(fields, "dynamics", repairs)
+    if element is None:
+        return {}
+    return {key: known_loss(element.number(key)) for key in ("damping", "friction")}
+
+
+def _safety_controller(fields: Fields, repairs: Repairs) -> SafetyController | None:
+    element = _first(fields, "safety_controller", repairs)
+    if element is None:
+        return None
+    given = {key: element.number(key) for key in _OF_CONTROLLERS}
+    return SafetyController(**{key: value for key, value in given.items() if value is not None})
+
+
+def _limits(
+    fields: Fields,
+    element: Fields | None,
+    name: str,
+    repairs: Repairs,
+) -> Interval:
     if element is None:
         repairs.limits.append(Repair(fields.line, f"{quote(name)} (none; line {fields.line})"))
         return UNBOUNDED

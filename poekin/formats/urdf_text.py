@@ -3,81 +3,123 @@
 from __future__ import annotations
 
 import math
-import re
+import os
 from collections.abc import Iterator
+from dataclasses import asdict
+from typing import overload
 
 import numpy as np
 
 from ..errors import InputError, join_names, quote, safe_repr
 from ..model.chain import Chain
 from ..model.joint import Joint
-from ..model.kinematics.arm import Arm
+from ..model.kinematics.arm import Arm, chain_of
 from ..model.kinematics.compiled import CompiledChain
+from ..model.provenance import warn
 from ..model.robot import Robot
-from . import rpy
+from . import rpy, urdf, urdf_in_place
 from .common.limits import UNBOUNDED
+from .common.xml_attribute import quote_attribute
+from .relink import relinked
 from .serial import serial_robot
+from .text import xml
+from .text.atomic_write import FilePath
+from .text.numbers import shortest
 
+Into = FilePath | bytes | Robot
+"""URDF to be edited: path, content, or a robot that was read from it."""
 UNLIMITED = 1e16
-"""Stand-in for "no limit" where URDF insists on a number [rad, m, N, N m, rad/s or m/s].
+"""Stand-in for "no bound" where URDF insists on a number [rad or m].
 
-No reader takes "inf", a missing bound is 0 to most, and an effort or velocity of 0 would hold the
-joint still in some.
+No reader takes "inf", and a missing bound is 0 to most.
+"""
+NOT_KNOWN = "effort and velocity 0: not known"
+"""Comment of a text that has such limits: URDF insists on both numbers.
+
+Real files write 0 there too, and MoveIt takes a velocity of 0 for "no limit". A large number would
+be believed by whoever plans with it.
 """
 
-# What XML 1.0 can hold at all; and what of that could disappear, break the markup, or be obeyed by
-# a terminal.
-_IMPOSSIBLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-_MARKUP = '&<>"'
+
+@overload
+def to_urdf(model: Robot | Arm, *, name: str | None = None, into: None = None) -> str: ...
+
+
+@overload
+def to_urdf(model: Robot | Arm, *, name: None = None, into: Into) -> bytes: ...
 
 
 def to_urdf(
     model: Robot | Arm,
     *,
     name: str | None = None,
-) -> str:
-    """URDF text of a robot or a chain: kinematics, names and limits, without mesh or inertia.
+    into: Into | None = None,
+) -> str | bytes:
+    """URDF text of a robot or a chain, without mesh or inertia; or a user's own URDF, edited.
 
-    A `Robot` keeps its tree: links, joints, origins, axes, mimic and order. A `Chain` becomes a
+    A `Robot` keeps its tree: links, joints, with all that their fields say, and order. A `Chain` becomes a
     robot of one branch: base, a link after each joint, tip, with the z-aligned link frames of
     `Chain.local`. Of the joints that follow a coordinate, the first one with x = q is its master
-    and the others mimic it.
+    and the others mimic it. With `into`, the text of a URDF comes back in which only <origin> and
+    <axis> of joints that moved are changed: meshes, masses, transmissions, comments, names and
+    blanks stay as they are.
 
     Parameters
     ----------
     model : Robot or Chain or CompiledChain
         What to write.
     name : str, optional
-        Name of the robot; by default its own, BASE_to_TIP for a chain.
+        Name of the robot; by default its own, BASE_to_TIP for a chain. Not with `into`.
+    into : str or os.PathLike or bytes or Robot, optional
+        Path of a URDF, its content, or a robot that was read from it: the text to be edited. A
+        `Robot` must have its links and joints; a `Chain` is put between the links that its base and
+        tip are called, as by `relinked`. The file itself stays as it is.
 
     Returns
     -------
-    text : str
-        Indented XML, the same for equal models, without any path. Encode it as UTF-8.
+    text : str or bytes
+        Indented XML, the same for equal models, without any path; encode it as UTF-8. With `into`,
+        the content of the edited file, bytes in its own encoding.
 
     Raises
     ------
     InputError
         If a joint is helical or follows several coordinates; if a name has a character that XML
-        cannot hold; if `model` is neither Robot nor Chain, or `name` no str.
+        cannot hold; if `model` is neither Robot nor Chain, or `name` no str; if `into` is given and
+        the robot differs from it in more than origins, axes and fixed joints that it has more, or
+        `relinked` refuses the chain.
+    FileError, ModelError
+        If `into` cannot be read, or not be edited byte for byte.
+    UnknownName
+        If `into` has no link of the chain's base or tip.
 
     Warns
     -----
     PoekinWarning
         If the coordinates of the written robot are not those of the chain: another scale or order,
-        or one left out because no joint follows it.
+        or one left out because no joint follows it; or if its readings are coupled, which a URDF
+        cannot say. With `into`, as `relinked`, where a tool link is added.
 
     Notes
     -----
+    In place, only those numbers of a joint change that do: roll, pitch and yaw are, of all that are
+    the same rotation, those nearest to the old, and a joint that moved by rounding alone (2e-15 of
+    the robot's size) is left. What was not there is inserted with the file's own quotes and
+    indents.
+
     A revolute joint without limits is continuous, as URDF calls that. A helical one without pitch
     is revolute. Where a prismatic joint, or one side of any joint, has no limit, ±1e16 is written;
-    `load` reads it back as unlimited, with its warning for such files. Likewise effort and
-    velocity, which URDF demands and a model here does not have. Two things are written that `load`
-    takes for "unlimited": lower = upper, and a bound of 1e4 or more. Limits of fixed and planar
-    joints have no place in the text.
+    `load` reads it back as unlimited, with its warning for such files. Where a <limit> needs an
+    effort or a velocity that is not known, 0 is written, and a comment says so; no number is made
+    up. `load`, MoveIt and Pinocchio read such files; simulators want numbers there. Three things
+    are written that `load` takes for "unlimited": lower = upper, a bound of 1e4 or more, and a
+    velocity of 1e4 or more. Limits of fixed and planar joints have no place in the text. A chain
+    knows velocity limits, and nothing of effort, damping, friction or a safety controller.
 
-    Accuracy: lengths, axes, limits and mimic read back as the same floats; the rotation of an
-    origin is the one of its roll, pitch and yaw within 1e-15 rad. Source: the URDF specification.
+    Accuracy: lengths, axes, limits, mimic, dynamics and safety controllers read back as the same
+    floats; the rotation of an origin is the one of its roll, pitch and yaw within 1e-15 rad. In
+    place, poses of links and axes are within 1e-13 of the robot's size; the text is read again
+    before it is returned (tests/formats/urdf_in_place). Source: the URDF specification.
 
     Examples
     --------
@@ -88,14 +130,28 @@ def to_urdf(
     <robot name="puma">
     >>> text.count("<joint ")
     7
+
+    A UR5e whose tool is 1 mm longer, in its own URDF:
+
+    >>> import difflib
+    >>> import numpy as np
+    >>> robot = pk.load("ur5e")
+    >>> mine = pk.to_urdf(robot).encode()
+    >>> longer = robot.chain().retooled([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0.001], [0, 0, 0, 1]])
+    >>> edited = pk.to_urdf(longer, into=mine)
+    >>> len(edited.splitlines()) == len(mine.splitlines())
+    True
     """
     if name is not None and not isinstance(name, str):
         raise InputError(f"name: expected the robot's name, a str, got {safe_repr(name)}")
     if not isinstance(model, (Robot, Chain, CompiledChain)):
         raise InputError(f"to_urdf: expected a Robot or a Chain, got {type(model).__name__}")
+    if into is not None:
+        return _in_place(model, name, into)
     robot = model
     if not isinstance(robot, Robot):
         robot = serial_robot(robot)
+    _warn_of_coupling(robot.name, robot.coupling)
     if name is None:
         name = robot.name
     helical = [joint.name for joint in robot.joints if joint.pitch]
@@ -105,16 +161,67 @@ def to_urdf(
         '<?xml version="1.0"?>',
         f"<robot name={quote_attribute(name, 'robot')}>",
     ]
+    limits = map(_limit, robot.joints)
+    if any(0 in (limit.get("effort"), limit.get("velocity")) for limit in limits):
+        lines.append(f"  <!-- {NOT_KNOWN} -->")
     lines += [f"  <link name={quote_attribute(link, 'link')}/>" for link in robot.links]
     for joint in robot.joints:
         lines += _joint(joint)
     return "\n".join([*lines, "</robot>", ""])
 
 
+def own_urdf(robot: Robot) -> bytes:
+    """Content of a robot's URDF: edited in place where it was read from one, else `to_urdf`."""
+    if has_text(robot):
+        return to_urdf(robot, into=robot)
+    return to_urdf(robot).encode()
+
+
+def has_text(robot: Robot) -> bool:
+    """Whether a robot was read from a URDF, and its text is known."""
+    return robot.source is not None and bool(robot.source.text)
+
+
+def _in_place(
+    model: Robot | Arm,
+    name: str | None,
+    into: Into,
+) -> bytes:
+    """Content of a URDF with the origins and axes of a robot or chain."""
+    if name is not None:
+        raise InputError(
+            "to_urdf: expected name or into, got both: in place, the robot keeps its name"
+        )
+    place = "<text>"
+    if isinstance(into, Robot):
+        if into.source is None or not into.source.text:
+            raise InputError(f"into: the robot {quote(into.name)} was not read from a URDF")
+        place = into.source.name
+        text = into.source.text
+    elif isinstance(into, bytes):
+        text = into
+    else:
+        text = xml.read_bytes(into)
+        place = os.fsdecode(into)
+    if not isinstance(model, Robot):
+        chain = chain_of(model)
+        robot = urdf.read_text(text, place, tell=False)
+        model = relinked(robot, chain, base=chain.base, tip=chain.tip)
+    _warn_of_coupling(model.name, model.coupling)
+    return urdf_in_place.edit(text, model, place)
+
+
+def _warn_of_coupling(name: str, coupling: tuple[str, ...]) -> None:
+    """Warn that a URDF does not say how readings are coupled."""
+    if coupling:
+        warn(
+            f"robot {quote(name)}: a URDF has the joints' own values, without the coupling of its "
+            f"readings: {'; '.join(coupling)}"
+        )
+
+
 def _joint(joint: Joint) -> Iterator[str]:
-    kind = joint.kind.replace("helical", "revolute")
-    if kind == "revolute" and joint.limits == UNBOUNDED:
-        kind = "continuous"
+    kind = _kind(joint)
     yield f'  <joint name={quote_attribute(joint.name, "joint")} type="{kind}">'
     yield f"    <parent link={quote_attribute(joint.parent, 'link')}/>"
     yield f"    <child link={quote_attribute(joint.child, 'link')}/>"
@@ -122,9 +229,14 @@ def _joint(joint: Joint) -> Iterator[str]:
     yield f'    <origin xyz="{_numbers(*T[:3, 3])}" rpy="{_numbers(*rpy.angles(T[:3, :3]))}"/>'
     if kind not in ("fixed", "floating"):
         yield f'    <axis xyz="{_numbers(*joint.axis)}"/>'
-    if kind in ("revolute", "prismatic"):
-        lower, upper, most = map(_numbers, (*joint.limits, UNLIMITED))
-        yield f'    <limit lower="{lower}" upper="{upper}" effort="{most}" velocity="{most}"/>'
+    limit = _limit(joint)
+    if limit:
+        yield f"    <limit {_attributes(limit)}/>"
+    if joint.damping or joint.friction:
+        dynamics = {"damping": joint.damping, "friction": joint.friction}
+        yield f"    <dynamics {_attributes(dynamics)}/>"
+    if joint.safety_controller is not None:
+        yield f"    <safety_controller {_attributes(asdict(joint.safety_controller))}/>"
     if joint.mimic is not None:
         mimic = joint.mimic
         multiplier, offset = map(_numbers, (mimic.multiplier, mimic.offset))
@@ -133,25 +245,29 @@ def _joint(joint: Joint) -> Iterator[str]:
     yield "  </joint>"
 
 
+def _kind(joint: Joint) -> str:
+    """Kind of a joint as URDF calls it."""
+    if joint.kind in ("revolute", "helical"):
+        return "continuous" if joint.limits == UNBOUNDED else "revolute"
+    return joint.kind
+
+
+def _limit(joint: Joint) -> dict[str, float]:
+    """Attributes of <limit>; none where URDF demands none and none is known."""
+    limit = {"effort": joint.effort, "velocity": joint.velocity}
+    bounded = _kind(joint) in ("revolute", "prismatic")
+    if not bounded and all(map(math.isinf, limit.values())):
+        return {}
+    limit = {name: 0.0 if math.isinf(value) else value for name, value in limit.items()}
+    if bounded:
+        limit = dict(zip(("lower", "upper"), joint.limits, strict=True)) | limit
+    return limit
+
+
+def _attributes(values: dict[str, float]) -> str:
+    return " ".join(f'{name}="{_numbers(value)}"' for name, value in values.items())
+
+
 def _numbers(*values: float) -> str:
     """Numbers in the shortest form that reads back as the same floats, an infinite one as ±1e16."""
-    finite = np.nan_to_num(values, nan=math.nan, posinf=UNLIMITED, neginf=-UNLIMITED)
-    words = (repr(value).removesuffix(".0") for value in finite.tolist())
-    return " ".join(words)
-
-
-def quote_attribute(name: str, what: str) -> str:
-    """Name as the value of an attribute; markup and unprintable characters by their numbers."""
-    bad = _IMPOSSIBLE.search(name)
-    if bad:
-        raise InputError(
-            f"{what} {quote(name)}: XML cannot hold the character U+{ord(bad[0]):04X} of its name"
-        )
-    escaped = "".join(map(_escaped, name))
-    return f'"{escaped}"'
-
-
-def _escaped(c: str) -> str:
-    if c.isprintable() and c not in _MARKUP:
-        return c
-    return f"&#{ord(c)};"
+    return shortest(np.nan_to_num(values, nan=math.nan, posinf=UNLIMITED, neginf=-UNLIMITED))

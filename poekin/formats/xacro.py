@@ -6,7 +6,7 @@ import glob
 import io
 import os
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr
 from types import ModuleType
 from typing import Any
@@ -16,12 +16,14 @@ from ..errors import InputError, MissingExtra, ModelError, escape_unprintable, s
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import urdf
+from .common.xml_attribute import quote_attribute
+from .ros import packages
 from .text import xml
 from .text.atomic_write import FilePath
-from .urdf_text import quote_attribute
 
 # The packages xacro and xacrodoc keep what they are at in variables of their modules.
 _one_at_a_time = threading.Lock()
+_MACRO = "{*}macro"
 
 
 def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
@@ -34,10 +36,10 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
     Parameters
     ----------
     path : str or os.PathLike
-        Path of the file. Files to include are relative to the file that includes them. Packages,
-        `$(find NAME)`, are looked for in the folders above the file, then where ROS has them
-        (ROS_PACKAGE_PATH, ament), and where `xacrodoc.packages.look_in` was told to. Meshes need
-        not be there.
+        Path of the file, or "package://NAME/PATH". Files to include are relative to the file that
+        includes them. Packages, `$(find NAME)`, are looked for in the folders above the file and
+        beside these, where `xacrodoc.packages.look_in` was told to, in AMENT_PREFIX_PATH, and in
+        ROS_PACKAGE_PATH; no package of ROS is needed. Meshes need not be there.
     **arguments : str, float or bool
         Values of the file's <xacro:arg>. True and False become "true" and "false".
 
@@ -49,7 +51,7 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
     Raises
     ------
     FileError
-        If the file cannot be read.
+        If the file cannot be read, or the package of its name is nowhere.
     ModelError
         If xacro refuses the file, with its own words, or the result cannot be understood as URDF;
         lines are then those of the evaluated text.
@@ -63,11 +65,18 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
     PoekinWarning
         For what xacro warns of, and for what was repaired in the URDF.
     """
+    path = packages.local_path(path)
     data = xml.read_bytes(path)
     name = os.fsdecode(path)
     root = xml.parse(data, name, tell=False)  # refuses what is not safe before it is evaluated
     values = {key: _text(key, value) for key, value in arguments.items()}
-    return urdf.read_text(_evaluated(name, root.get("name"), values), f"{name} (evaluated)")
+    result = _evaluated(name, root.get("name"), values)
+    if "<link" not in result and next(root.iter(_MACRO), None) is not None:
+        raise ModelError(
+            f"{Source(name).place()}: xacro: the file defines macros only, and no robot: "
+            "evaluate the file that uses them"
+        )
+    return urdf.read_text(result, f"{name} (evaluated)")
 
 
 def is_xacro(path: FilePath) -> bool:
@@ -93,7 +102,7 @@ def _evaluated(
     values: dict[str, str],
 ) -> str:
     """URDF text of an evaluated file; robot is the name on its root element, if there is one."""
-    xacrodoc, xacro_ = _packages()
+    xacrodoc, xacro_ = _evaluators()
     # Included from another document, by its whole path, the file is where its own includes are
     # relative to. `$` and what stands for other characters in patterns must not mean anything
     # there.
@@ -116,7 +125,7 @@ def _evaluated(
     )
     said = io.StringIO()
     try:
-        with _one_at_a_time, _packages_above(name, xacrodoc.packages), redirect_stderr(said):
+        with _one_at_a_time, _packages_of(name, xacrodoc.packages), redirect_stderr(said):
             result = xacrodoc.XacroDoc.from_string(
                 text,
                 subargs=values,
@@ -132,7 +141,7 @@ def _evaluated(
     return result
 
 
-def _packages() -> tuple[ModuleType, ModuleType]:
+def _evaluators() -> tuple[ModuleType, ModuleType]:
     try:
         import xacro as xacro_
         import xacrodoc
@@ -143,17 +152,32 @@ def _packages() -> tuple[ModuleType, ModuleType]:
 
 
 @contextmanager
-def _packages_above(name: str, packages: Any) -> Iterator[None]:
-    """Context in which packages in the folders above a file come first, for this file only."""
-    before = packages._finder  # noqa: SLF001 - xacrodoc has no other way to set it
-    finder = packages.PackageFinder()
-    finder.finder_funcs = [(before.get_path, packages.PackageNotFoundError)]
-    finder.walk_up_from(os.path.abspath(name))
-    packages._finder = finder  # noqa: SLF001
+def _packages_of(name: str, known: Any) -> Iterator[None]:
+    """Context in which xacro finds packages as `xacro` says, those near a file for this file only."""
+    before = known._finder  # noqa: SLF001 - xacrodoc has no other way to set it
+
+    def asking(find: Callable[[str], str | None]) -> tuple[Callable[[str], str], type]:
+        def found(package: str) -> str:
+            folder = find(package)
+            if folder is None:
+                raise known.PackageNotFoundError(package)
+            return folder
+
+        return found, known.PackageNotFoundError
+
+    finder = known.PackageFinder()
+    finder.finder_funcs = [
+        asking(lambda package: packages.find_near(package, name)),
+        asking(before.package_cache.get),
+        *before.finder_funcs[:-1],
+        asking(packages.find),
+        *before.finder_funcs[-1:],  # xacrodoc's own, by packages of ROS
+    ]
+    known._finder = finder  # noqa: SLF001
     try:
         yield
     finally:
-        packages._finder = before  # noqa: SLF001
+        known._finder = before  # noqa: SLF001
 
 
 def _reason(fault: BaseException, xacrodoc: Any) -> str:
@@ -163,7 +187,7 @@ def _reason(fault: BaseException, xacrodoc: Any) -> str:
     while cause is not None:
         if isinstance(cause, xacrodoc.packages.PackageNotFoundError):
             where = (
-                "in the folders above the file, in ROS_PACKAGE_PATH, "
+                f"in the folders above the file and beside these, in {packages.places()}, "
                 "and where xacrodoc.packages.look_in was told to"
             )
             return f"there is no package {escape_unprintable(' '.join(map(str, cause.args)), 80)!r} {where}"

@@ -251,6 +251,7 @@ BESIDE = {
     "lie.arctangent": "the angle of Lemma 3 to its last digit, with what rounding took",
     "lie.compensated": "what rounding took from lengths, quotients and sums, for Lemmas 1 to 4",
     "lie.defect": "whether nine numbers are a rotation; the paper takes it for granted",
+    "lie.euler": "three turns, as controllers and URDF write a rotation; the paper has none",
     "inverse.damped_step": "inverse kinematics is none of the paper's subjects",
     "inverse.least_squares": "inverse kinematics is none of the paper's subjects",
 }

@@ -66,6 +66,8 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
         Pitches, m per rad, 0 for a revolute and for a prismatic joint. Without them the pitch is
         ω · v of the screw, 0 where that is its rounding, below 4e-15 max(1 m, |v|); with them v is
         made exact, so that ω · v is the pitch.
+    velocity_limits : (m,) array_like, optional
+        Greatest |dq| of each coordinate, rad/s or m/s; infinite where it is not known.
 
     Raises
     ------
@@ -355,7 +357,7 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
         """Configurations drawn uniformly within the limits.
 
         A coordinate without limits is drawn from one turn, or 1 m either way, of the joint that it
-        moves fastest.
+        moves fastest. Of coupled readings within theirs a joint may be beyond its own limits.
 
         Parameters
         ----------

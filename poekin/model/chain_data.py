@@ -23,6 +23,7 @@ from .checks import (
     one_pose,
     ordered_names,
     read_only,
+    velocity_bounds,
 )
 from .geometry.local import LocalForm, kernel_table, local_form
 from .screw_rows.unit_screws import pitches_of, unit_screws, with_pitches
@@ -61,6 +62,7 @@ class ChainOptions(TypedDict, total=False):
     base: str
     tip: str
     pitches: ArrayLike | None
+    velocity_limits: ArrayLike | None
 
 
 @dataclass(slots=True, init=False, eq=False, repr=False)
@@ -84,6 +86,7 @@ class ChainData:
     base: str
     tip: str
     pitches: Array
+    velocity_limits: Array
     nontrivial_coupling: Array | None
     kinds: tuple[ScrewKind, ...]
     local: LocalForm
@@ -106,6 +109,7 @@ class ChainData:
         base: str = "base",
         tip: str = "tool",
         pitches: ArrayLike | None = None,
+        velocity_limits: ArrayLike | None = None,
     ) -> None:
         choice(frame, get_args(ScrewFrame), "frame", _ENTRANCES)
         given_names = ordered_names(joint_names, "joint_names")
@@ -139,6 +143,7 @@ class ChainData:
             base=frame_name(base, "base"),
             tip=frame_name(tip, "tip"),
             pitches=read_only(h),
+            velocity_limits=read_only(velocity_bounds(velocity_limits, names)),
             nontrivial_coupling=None if C is None else read_only(C),
             kinds=tuple(map(_kind, form.rotates, form.slides)),
             local=form,
@@ -274,8 +279,12 @@ class ChainData:
 AnyChain = TypeVar("AnyChain", bound=ChainData)
 """The class of the chain that is given: a function of a `Chain` that makes a new one makes a Chain."""
 
-_DATA = ("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip", "pitches")
-_SIZED = ("joint_names", "q_names", "limits", "coupling", "offset")  # by the number of joints
+_DATA = (
+    *("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip", "pitches"),
+    "velocity_limits",
+)
+# by the number of joints
+_SIZED = ("joint_names", "q_names", "limits", "coupling", "offset", "velocity_limits")
 _KINDS: tuple[ScrewKind, ...] = get_args(ScrewKind)
 
 

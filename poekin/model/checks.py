@@ -139,6 +139,24 @@ def bounds(limits: ArrayLike | None, names: tuple[str, ...]) -> Array:
     return L
 
 
+def velocity_bounds(limits: ArrayLike | None, names: tuple[str, ...]) -> Array:
+    """Greatest rate of each coordinate (m,), infinite where it is not known."""
+    if limits is None:
+        return np.full(len(names), np.inf)
+    v = numbers(limits, "velocity_limits").copy()
+    if v.shape != (len(names),):
+        raise ShapeError(
+            f"velocity_limits: expected shape ({len(names)},), one of each coordinate, got {v.shape}"
+        )
+    for name, bound in zip(names, v.tolist(), strict=True):
+        if not bound > 0:
+            raise InputError(
+                f"velocity_limits: expected a positive number for {quote(name)}, infinite where it is"
+                f" not known, got {bound}"
+            )
+    return v
+
+
 def coupling_matrix(values: ArrayLike | None, n: int) -> Array | None:
     """C as given, or None where it is the identity or not given."""
     if values is None:

@@ -59,6 +59,50 @@ class Mimic:
 
 
 @dataclass(frozen=True, slots=True)
+class SafetyController:
+    """Limits of a joint's controller in URDF; poekin keeps them and does not use them.
+
+    Velocity is kept within -k_position (x - soft_lower_limit) and -k_position (x -
+    soft_upper_limit), effort within -k_velocity (v - v_limit).
+
+    Parameters
+    ----------
+    k_velocity : float, default 0.0
+        Effort per velocity, N m s/rad or N s/m.
+    k_position : float, default 0.0
+        Velocity per position, 1/s.
+    soft_lower_limit, soft_upper_limit : float, default 0.0
+        Bounds of x at which the controller begins to slow the joint down, rad or m.
+
+    Raises
+    ------
+    ModelError
+        If a number is not finite.
+
+    Notes
+    -----
+    Source: the URDF specification, element <safety_controller>, whose defaults these are.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> pk.SafetyController(k_velocity=40.0, k_position=100.0, soft_lower_limit=-2.9).k_position
+    100.0
+    """
+
+    k_velocity: float = 0.0
+    k_position: float = 0.0
+    soft_lower_limit: float = 0.0
+    soft_upper_limit: float = 0.0
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            what = f"safety_controller: {field.name}"
+            (number,) = _finite((getattr(self, field.name),), 1, what)
+            _set(self, field.name, number)
+
+
+@dataclass(frozen=True, slots=True)
 class Joint:
     """Joint of two links: T_pc(x) = origin e^{S x}, S the screw in the joint's own frame.
 
@@ -84,6 +128,13 @@ class Joint:
         Joint that it follows. A fixed joint stays where it is, whatever it is said to mimic.
     pitch : float, default 0.0
         Pitch of a helical joint, m per rad.
+    velocity, effort : float, optional
+        Greatest |dx/dt|, rad/s or m/s, and greatest torque or force, N m or N; infinite where it is
+        not known.
+    damping, friction : float, default 0.0
+        Viscous damping, N m s/rad or N s/m, and Coulomb friction, N m or N; kept for other programs.
+    safety_controller : SafetyController, optional
+        Limits of the joint's controller; kept for other programs.
 
     Raises
     ------
@@ -120,6 +171,11 @@ class Joint:
     limits: Any = (-math.inf, math.inf)
     mimic: Mimic | None = None
     pitch: float = 0.0
+    velocity: float = math.inf
+    effort: float = math.inf
+    damping: float = 0.0
+    friction: float = 0.0
+    safety_controller: SafetyController | None = None
 
     def __post_init__(self) -> None:
         _name(self.name, "a joint")
@@ -149,6 +205,16 @@ class Joint:
         if self.mimic is not None and self.kind in FREE:
             raise ModelError(
                 f"a {self.kind} joint has no single value and cannot mimic another joint"
+            )
+
+        for field in ("velocity", "effort"):
+            _set(self, field, _bound(getattr(self, field), field))
+        for field in ("damping", "friction"):
+            _set(self, field, _loss(getattr(self, field), field))
+        controller = self.safety_controller
+        if controller is not None and not isinstance(controller, SafetyController):
+            raise ModelError(
+                f"safety_controller must be a SafetyController or None, got {safe_repr(controller)}"
             )
 
     @property
@@ -206,6 +272,28 @@ def _finite(values: Any, count: int, what: str) -> tuple[float, ...]:
     raise ModelError(
         f"{what}: expected {count} finite number(s), got {safe_repr(values)}"
     ) from fault
+
+
+def _bound(value: Any, what: str) -> float:
+    """Bound of a rate or a force: positive, infinite where there is none."""
+    fault = None
+    try:
+        bound = float(value)
+        if bound > 0:
+            return bound
+    except (TypeError, ValueError, OverflowError) as error:
+        fault = error
+    raise ModelError(
+        f"{what}: expected a positive number, infinite where it is not known, got {safe_repr(value)}"
+    ) from fault
+
+
+def _loss(value: Any, what: str) -> float:
+    """Coefficient of damping or friction: finite, not negative."""
+    (loss,) = _finite((value,), 1, what)
+    if loss < 0:
+        raise ModelError(f"{what}: expected no negative number, got {safe_repr(value)}")
+    return loss + 0.0
 
 
 def _direction(axis: Any) -> tuple[float, ...]:

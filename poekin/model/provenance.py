@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ..errors import PoekinWarning, quote
 
@@ -14,15 +14,14 @@ class Source:
     """Origin of a robot: file or text, and the lines of its links and joints.
 
     Fields: name, a file or whatever else the text came from; link_lines and joint_lines, the line
-    of each link and joint in the robot's order, empty where there are no lines to speak of; origin,
-    where the text can be read again whatever the working directory is by then: the absolute path of
-    a file, the name of an arm that comes with poekin, or "" where it cannot.
+    of each link and joint in the robot's order, empty where there are no lines to speak of; text,
+    the text itself where it was URDF, which others can then read, and which can be edited in place.
     """
 
     name: str
     link_lines: tuple[int, ...] = ()
     joint_lines: tuple[int, ...] = ()
-    origin: str = ""
+    text: str | bytes = field(default=b"", repr=False, compare=False)
 
     def __str__(self) -> str:
         return self.name

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import ModelError, UnknownName, quote, safe_repr, suggest
+from ..errors import InputError, ModelError, UnknownName, quote, safe_repr, suggest
 from .chain import Chain
 from .joint import Joint
 from .methods.peer_names import OF_CHAINS, OF_ROBOTS, no_attribute
 from .provenance import Source
+from .readings.coupled import with_readings
+from .readings.statements import Statements, make_statements
 from .tree.all_poses import all_poses
 from .tree.chain_between import chain_between, only_leaf
 from .tree.coupling import warn_of_torn_limits
@@ -33,6 +35,9 @@ class Robot:
         Joints in any order; that order is kept.
     source : Source or str, optional
         File or text that they were read from, for messages.
+    coupling : str or sequence of str, optional
+        Statements such as "J3 = J2 + J3", by which joints follow the readings that are then the
+        robot's coordinates; see `Chain.coupled`.
 
     Attributes
     ----------
@@ -54,7 +59,10 @@ class Robot:
         joint constant.
     limits : (m, 2) ndarray
         Lower and upper bound of each coordinate, rad or m, intersected over all joints that follow
-        it; where nothing is left of an interval, the master's own limits, and a PoekinWarning.
+        it; where nothing is left of an interval, the master's own limits, and a PoekinWarning. Of
+        coupled readings what these limits leave to each.
+    coupling : tuple of str
+        Statements of the coupling, none where each coordinate is its master joint's own value.
 
     Raises
     ------
@@ -70,7 +78,7 @@ class Robot:
 
     Notes
     -----
-    Frozen, with read-only arrays; robots of equal name, links and joints are equal, wherever they
+    Frozen, with read-only arrays; robots of equal name, links, joints and coupling are equal, wherever they
     were read from.
 
     Examples
@@ -86,6 +94,7 @@ class Robot:
     links: tuple[str, ...]
     joints: tuple[Joint, ...]
     source: Source | None = None
+    coupling: tuple[str, ...] = ()
     root: str = field(init=False)
     leaves: tuple[str, ...] = field(init=False)
     q_names: tuple[str, ...] = field(init=False)
@@ -98,13 +107,14 @@ class Robot:
         links: Iterable[str],
         joints: Iterable[Joint],
         source: Source | str | None = None,
+        coupling: Statements = (),
     ) -> None:
         read_from = Source(source) if isinstance(source, str) else source
         if read_from is not None and not isinstance(read_from, Source):
             raise ModelError(
                 f"robot {quote(name)}: source must be a Source, a text or None, got {safe_repr(source)}"
             )
-        parts = make_parts(name, links, joints, read_from)
+        parts = make_parts(name, links, joints, read_from, coupling)
         self._freeze(parts, read_from)
         warn_of_torn_limits(parts.coupling, parts.torn, parts.joints, parts.place)
 
@@ -115,6 +125,7 @@ class Robot:
             "links": parts.links,
             "joints": parts.joints,
             "source": source,
+            "coupling": make_statements(parts.readings, parts.coupling.q_names),
             "root": parts.links[parts.tree.root],
             "leaves": tuple(link for link in parts.links if link not in parents),
             "q_names": parts.coupling.q_names,
@@ -170,7 +181,7 @@ class Robot:
         its value keeps its sign. Coordinates are in order of first appearance from base to tip; one
         whose master joint is off the way is named after that master. Limits are intersected over
         the joints on the way that follow a coordinate; where nothing is left, the master's own
-        stand.
+        stand. The velocity limit of a coordinate is that of the slowest of these joints.
 
         Parameters
         ----------
@@ -209,7 +220,41 @@ class Robot:
         if tip is None:
             tip = only_leaf(self._parts, self.leaves)
         screws, home, options = chain_between(self._parts, base, tip)
+        if self._parts.readings is not None:
+            options = with_readings(options, self._parts.readings, self.q_names)
         return Chain.from_space(screws, home, **options)
+
+    def coupled(self, coupling: Statements) -> Robot:
+        """Robot of the same links and joints whose coordinates are readings that joints follow.
+
+        Parameters
+        ----------
+        coupling : str or sequence of str
+            Statements such as "J3 = J2 + J3", as `Chain.coupled` takes them.
+
+        Returns
+        -------
+        robot : Robot
+            Robot whose `fk` and chains take readings.
+
+        Raises
+        ------
+        InputError
+            As `Chain.coupled`, and if this robot's readings are coupled already.
+
+        Examples
+        --------
+        >>> import poekin as pk
+        >>> fanuc = pk.load("puma560").coupled("joint3 = joint2 + joint3")
+        >>> fanuc.coupling
+        ('joint3 = joint2 + joint3',)
+        """
+        if self.coupling:
+            raise InputError(
+                f"coupling: the readings of robot {quote(self.name)} are coupled already: "
+                f"{'; '.join(self.coupling)}"
+            )
+        return Robot(self.name, self.links, self.joints, self.source, coupling)
 
     def fk(self, q: Any, poses: Mapping[str, Any] | None = None) -> dict[str, np.ndarray]:
         """Pose of every link in the root link's frame.
@@ -256,7 +301,7 @@ class Robot:
         return all_poses(self._parts, q, poses)
 
     def _data(self) -> tuple[Any, ...]:
-        return self.name, self.links, self.joints
+        return self.name, self.links, self.joints, self.coupling
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Robot):
@@ -286,9 +331,10 @@ def _rebuilt(
     name: str,
     links: Any,
     joints: Any,
+    coupling: tuple[str, ...],
     source: Source | None,
 ) -> Robot:
     """A robot that was pickled: what there was to warn of was said when it was made."""
     robot = object.__new__(Robot)
-    robot._freeze(make_parts(name, links, joints, source), source)
+    robot._freeze(make_parts(name, links, joints, source, coupling), source)
     return robot

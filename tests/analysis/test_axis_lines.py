@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import poekin as pk
 from poekin.analysis.axis_lines import uncoupled_at_zero
 from poekin.groups import se3
 from poekin.model import screw
@@ -34,3 +35,11 @@ def test_at_rest_every_joint_is_a_coordinate_whose_limits_are_those_of_the_only_
     assert uncoupled_at_zero(offset).fk(np.zeros(3)) == pytest.approx(
         offset.fk(np.zeros(3)), abs=1e-14
     )
+
+
+def test_at_rest_joints_that_follow_sums_of_readings_have_their_own_limits():
+    arm = pk.load("puma560").chain()
+    rest = uncoupled_at_zero(arm.coupled("J3 = J2 + J3"))
+    np.testing.assert_allclose(rest.limits, arm.limits, rtol=0, atol=1e-14)
+    shifted = uncoupled_at_zero(arm.coupled("J3 = J2 + J3").replace(offset=np.full(6, 0.5)))
+    np.testing.assert_allclose(shifted.limits, arm.limits, rtol=0, atol=1e-14)

@@ -13,10 +13,13 @@ import numpy as np
 import pytest
 
 from poekin.analysis.validate import BAR, ChainErrors, Validation, chain_errors, routes, validate
-from poekin.errors import FileError, InputError, ModelError, PoekinWarning
+from poekin.errors import InputError, ModelError, PoekinWarning
 from poekin.formats import urdf
+from poekin.formats.content.robots import from_text
 from poekin.formats.erd import example_robots
 from poekin.formats.load import load
+from poekin.formats.relink import relinked
+from poekin.groups import se3
 from poekin.model.chain import Chain
 from poekin.model.joint import Joint
 from poekin.model.robot import Robot
@@ -355,13 +358,31 @@ def test_a_robot_that_came_from_no_urdf_is_validated_by_the_text_that_it_is_writ
         validate(Robot("r", ["a", "b"], [Joint("j", "helical", "a", "b", pitch=0.1)]))
 
 
-def test_a_file_that_is_gone_is_an_error(tmp_path):
+def test_the_text_that_was_read_is_pinocchio_s_though_its_file_is_gone(tmp_path, monkeypatch):
     path = tmp_path / "r.urdf"
     path.write_text(URDF)
     robot = load(path)
     path.unlink()
-    with pytest.raises(FileError, match="again for Pinocchio"):
-        validate(robot)
+    given = []
+
+    def oracle(text):
+        given.append(text)
+        return PinocchioOracle(text)
+
+    monkeypatch.setattr("poekin.analysis.validate.PinocchioOracle", oracle)
+    assert validate(robot, samples=2).passed
+    assert validate(from_text(URDF), samples=2).passed
+    assert given == [URDF.encode(), URDF]
+
+
+def test_a_robot_that_was_changed_since_it_was_read_is_validated_as_it_is():
+    robot = urdf.read_text(URDF)
+    chain = robot.chain(tip="tip")
+    screws = chain.screws.copy()
+    screws[0] = se3.adjoint(se3.exp([1e-3, 0, 0, 0, 1e-3, 0])) @ screws[0]
+    changed = relinked(robot, chain.replace(screws=screws), tip="tip")
+    assert changed != robot
+    assert validate(changed, samples=2).passed
 
 
 def test_fewer_than_no_samples_are_refused():

@@ -92,7 +92,8 @@ def result(change: str, joint: dict[str, Any] | None = None, **changes: Any) -> 
         }
     )
     fields = {
-        "differing": [j], "joints": [None, None, j], "equal": change in ("zero", "flip"), "verdict": "joint 3 differs",
+        "differing": [j], "joints": [None, None, j], "same_arm": change in ("zero", "flip"),
+        "verdict": "joint 3 differs",
         "base": np.eye(4), "tool": np.eye(4),
     }  # fmt: skip
     return SimpleNamespace(**(fields | changes))
@@ -142,7 +143,7 @@ def test_what_is_wrong_with_a_comparison_is_said(change):
         or fault(result(change, {"normal": 1.01e-5}), change, 2) == "tilt shifted by 1.01e-05 m"
     )
     equal = change in ("zero", "flip")
-    assert fault(result(change, equal=not equal), change, 2) == "verdict joint 3 differs"
+    assert fault(result(change, same_arm=not equal), change, 2) == "verdict joint 3 differs"
     assert (
         fault(result(change, verdict="joint 33 differs"), change, 2) == "verdict joint 33 differs"
     )
@@ -169,7 +170,7 @@ def test_what_is_wrong_with_an_alignment_is_said():
 
     def aligned(**changes: Any) -> Any:
         fields = {
-            "differing": [], "equal": True, "verdict": "the same arm, aligned", "base": base, "tool": tool,
+            "differing": [], "same_arm": True, "verdict": "the same arm, aligned", "base": base, "tool": tool,
             "after": SimpleNamespace(worst_position=0.99e-7),
         }  # fmt: skip
         return SimpleNamespace(**(fields | changes))
@@ -178,7 +179,7 @@ def test_what_is_wrong_with_an_alignment_is_said():
     for changes, said in (
         ({}, ""),
         ({"differing": [SimpleNamespace(number=2)]}, "blames [2]: the same arm, aligned"),
-        ({"equal": False}, "blames []: the same arm, aligned"),
+        ({"same_arm": False}, "blames []: the same arm, aligned"),
         ({"verdict": "the same arm"}, "verdict the same arm"),
         ({"base": None}, "matches nothing"),
         ({"tool": None}, "matches nothing"),

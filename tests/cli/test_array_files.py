@@ -9,6 +9,7 @@ import pytest
 
 from poekin.cli import array_files
 from poekin.errors import FileError
+from poekin.formats.text import csv_rows
 from poekin.formats.text.atomic_write import write_whole
 
 
@@ -26,7 +27,7 @@ def test_of_a_file_that_cannot_be_read_the_reason_is_said_without_a_number(error
 
     monkeypatch.setattr(array_files, "_content", fails)
     with pytest.raises(FileError) as refused:
-        array_files.read_rows("q.npy", ["a"], "coordinate", lambda *_: None)
+        array_files.read_rows("q.npy", csv_rows.Columns(("a",), "coordinate"), lambda *_: None)
     assert str(refused.value) == "cannot read 'q.npy': No such file or directory"
 
 

@@ -80,6 +80,36 @@ def test_arguments_go_to_xacro_and_only_for_that_command(as_json, refused, arm):
 
 
 @needs_xacro
+def test_a_model_may_be_named_by_its_package(poekin, refused, tmp_path, monkeypatch):
+    package = tmp_path / "share" / "my_arm"
+    package.mkdir(parents=True)
+    index = tmp_path / "share" / "ament_index" / "resource_index" / "packages"
+    index.mkdir(parents=True)
+    (index / "my_arm").touch()
+    (package / "arm.xacro").write_text(XACRO)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    code, text, err = poekin("urdf", "package://my_arm/arm.xacro", "--xacro")
+    assert (code, err) == (0, "")
+    (package / "arm.urdf").write_text(text)
+    assert poekin("urdf", "package://my_arm/arm.urdf")[1] == text
+    out = tmp_path / "out"
+    words = ("--lang", "python", "--output", out)
+    assert poekin("emit", "package://my_arm/arm.urdf", *words)[0] == 0
+    head = (out / "r.py").read_text().replace("\n", " ")
+    assert "file arm.urdf with the SHA-256 " in head
+    for name, message in (
+        (
+            "package://no_arm/arm.urdf",
+            "there is no package 'no_arm' in AMENT_PREFIX_PATH (folders: 1)",
+        ),
+        ("package://my_arm/../arm.urdf", "expected package://PACKAGE/PATH"),
+        ("package://my_arm/gone.urdf", "gone.urdf: cannot be read: No such file"),
+    ):
+        assert message in refused("urdf", name, "--output", tmp_path / "gone")
+        assert not (tmp_path / "gone").exists()
+
+
+@needs_xacro
 def test_compare_reads_xacro_beside_other_models(poekin, arm, tmp_path):
     code, text, _ = poekin("urdf", arm, "--xacro")
     assert code == 0

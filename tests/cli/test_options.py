@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 import typing
 from collections.abc import Iterator
 from typing import Any
@@ -14,10 +15,11 @@ from poekin.cli import commands, conform
 from poekin.cli.calibration import calibrate
 from poekin.cli.kinematics import ik, jacobian
 from poekin.cli.models import emit
-from poekin.formats.text import pose_rows
+from poekin.formats.poses.layout import FORMATS, layout
 from poekin.testing.conform import LAWS
 
 DEFAULTS: dict[str, dict[str, object]] = {
+    "apply": {"force": False, "json": False},
     "axes": {"tol_mm": 0.01, "tol_deg": 0.001, "json": False},
     "calibrate": {
         "loss": "linear",
@@ -25,11 +27,13 @@ DEFAULTS: dict[str, dict[str, object]] = {
         "folds": 5,
         "seed": 0,
         "convention": "standard",
+        "exact": False,
         "json": False,
     },
     "compare": {
         "tol_mm": 0.01,
         "tol_deg": 0.001,
+        "same": "base,tool,zeros,directions,limits",
         "strict": False,
         "samples": 200,
         "seed": 0,
@@ -40,7 +44,14 @@ DEFAULTS: dict[str, dict[str, object]] = {
     "dh": {"convention": "standard", "json": False},
     "emit": {"frame": "hybrid", "single": False, "force": False},
     "fk": {"json": False},
-    "follow": {"max_step": 0.1, "task": "pose", "no_limits": False, "seed": 0, "json": False},
+    "follow": {
+        "fastest": False,
+        "max_step": 0.1,
+        "task": "pose",
+        "no_limits": False,
+        "seed": 0,
+        "json": False,
+    },
     "ik": {"task": "pose", "no_limits": False, "seed": 0, "json": False},
     "info": {"json": False},
     "jacobian": {"json": False},
@@ -97,13 +108,11 @@ def test_the_numbers_in_the_help_are_those_that_are_taken():
     assert help_of(calibrate, "folds").endswith("; 0: none.")
     assert help_of(jacobian, "frame").endswith("of joint K, counted from 0).")
     assert help_of(emit, "frame").endswith("of joint K, from 0).")
-    twelve, sixteen, seven = (help_of(ik, "format").index(f"{n} (") for n in (12, 16, 7))
-    assert twelve < sixteen < seven
-    names = pose_rows.columns("12", None)
-    assert f"row by row: {' '.join(names[:5])} ..., m)" in help_of(ik, "format")
+    names = layout("matrix").columns
+    assert f"matrix (12 or 16, row by row: {' '.join(names[:5])} ..., m)" in help_of(ik, "format")
+    assert (len(layout("12").columns), len(names)) == (12, 16)
+    named = re.findall(r"\w+", help_of(ik, "format"))
+    assert set(FORMATS) - set(named) == {"7", "zyz"}
     assert (
-        len(names),
-        len(pose_rows.columns("16", None)),
-        len(pose_rows.columns("7", "wxyz")),
-    ) == (12, 16, 7)
-    assert help_of(ik, "quaternion") == "The order of the quaternion in --format 7; never guessed."
+        help_of(ik, "quaternion") == "The order of the quaternion in --format quat; never guessed."
+    )

@@ -16,6 +16,7 @@ TIP = ("--tip", "hook")
 
 COMMANDS = {
     "urdf": (("urdf", "MODEL", "--output", "OUT"), "model", "model.urdf"),
+    "urdf, the URDF": (("urdf", "ROWS", "--into", "MODEL", "--output", "OUT"), "URDF", "model.urdf"),
     "dh": (("dh", "MODEL", *TIP, "--output", "OUT"), "model", "model.csv"),
     "emit": (("emit", "MODEL", *TIP, "--lang", "python", "--force", "--output", "OUT"), "model", "model.py"),
     "fk": (("fk", "MODEL", *TIP, "--input", "ROWS", "--output", "OUT"), "configurations", "rows.csv"),
@@ -26,7 +27,11 @@ COMMANDS = {
     "follow": (("follow", "MODEL", *TIP, "--format", "12", "--input", "ROWS", "--output", "OUT"), "poses", "rows.csv"),
     "follow, drawn": (("follow", "MODEL", *TIP, "--format", "12", "--input", "ROWS", "--plot", "OUT"),
                       "model", "model.svg"),
+    "follow, fastest": (("follow", "MODEL", *TIP, "--format", "12", "--input", "ROWS", "--fastest", "--acceleration",
+                         "1", "--output", "OUT"), "poses", "rows.csv"),
     "calibrate": (("calibrate", "MODEL", "ROWS", *TIP, "--output", "OUT"), "measurements", "rows.csv"),
+    "apply": (("apply", "MODEL", "ROWS", "--output", "OUT"), "model", "model.urdf"),
+    "apply, the calibration": (("apply", "MODEL", "ROWS", "--output", "OUT"), "calibration", "rows.urdf"),
     "calibrate, the model": (("calibrate", "MODEL", "ROWS", *TIP, "--output", "OUT"), "model", "model.urdf"),
 }  # fmt: skip
 
@@ -50,8 +55,9 @@ def test_what_a_command_reads_stays_as_it_is(command, link, crane, tmp_path, ref
     given = {"MODEL": crane, "ROWS": str(tmp_path / "rows.csv")}
     (tmp_path / "rows.csv").write_text(POSE)
     file = tmp_path / name
-    file.write_text(Path(crane).read_text() if what == "model" else POSE)
-    given["MODEL" if what == "model" else "ROWS"] = str(file)
+    models = ("model", "URDF")
+    file.write_text(Path(crane).read_text() if what in models else POSE)
+    given["MODEL" if what in models else "ROWS"] = str(file)
     given["OUT"] = str(LINKS[link](file))
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
     assert f"it is the file of the {what}" in refused(*(given.get(word, word) for word in words))

@@ -188,7 +188,7 @@ def test_a_table_s_result_says_what_it_chose_and_becomes_plain_data():
     assert lines[-1].startswith(f"Pose error ÷ reach ({result.reach:.3g} m): {result.error:.2g} ")
     document = json.loads(result.to_json())
     assert list(document) == [
-        *("convention", "joints", "base_pose", "tool_pose"),
+        *("convention", "joints", "base_pose", "tool_pose", "coupling"),
         *("gauge", "error", "bound", "warnings", "reach"),
     ]
     rows = [Row(**joint | {"limits": (-math.inf, math.inf)}) for joint in document["joints"]]

@@ -167,7 +167,7 @@ def test_a_bad_csv_is_refused_with_its_line(text, message):
         ("name = 'x'", "t.toml: convention: expected 'standard' or 'modified', got None; ..."),
         (
             "convention = 'standard'\ncolour = 1",
-            "t.toml: no such key: 'colour'; available: 'convention', 'name', 'source', 'base', 'tool' and 1 more",
+            "t.toml: no such key: 'colour'; available: 'convention', 'name', 'source', 'base', 'tool' and 2 more",
         ),
         ("convention = 'standard'\njoint = 3", "t.toml: joint: expected [[joint]] tables, got 3"),
         (

@@ -206,6 +206,14 @@ def test_the_closest_name_is_suggested_whatever_its_case_and_folder(name, guess)
     assert guess in str(caught.value)
 
 
+def test_the_prefix_of_example_robot_data_may_be_misspelt_too(monkeypatch):
+    monkeypatch.setattr(erd, "available", lambda: {"panda": "panda.urdf", "ur5": "ur5.urdf"})
+    with pytest.raises(UnknownName, match=r"named 'ERD:Panda'; did you mean 'erd:panda'\? \("):
+        load("ERD:Panda")
+    with pytest.raises(UnknownName, match=r"no robot 'Panda'; did you mean 'panda'\?$"):
+        load("erd:Panda")
+
+
 @pytest.mark.parametrize("installed", [True, False])
 def test_a_robot_of_example_robot_data_is_suggested_where_nothing_built_in_is(
     installed, monkeypatch

@@ -5,6 +5,8 @@ URDF behind it.
 from __future__ import annotations
 
 import math
+import operator
+import sys
 from types import SimpleNamespace
 from typing import Any
 
@@ -18,6 +20,7 @@ from poekin.errors import ModelError, PoekinWarning, PoseError
 from poekin.formats import urdf
 from poekin.formats.erd import example_robots
 from poekin.formats.objects import from_object
+from poekin.model.joint import MOVING
 from poekin.testing.strategies import group_strategies
 from tests.groups.test_objects import library
 from tests.versions import needs
@@ -210,6 +213,9 @@ def test_a_model_built_from_a_urdf_is_the_robot_of_that_urdf(name):
     assert {j.name: j.limits for j in robot.joints if j.kind != "fixed"} == {
         j.name: j.limits for j in read.joints if j.kind not in ("fixed", "planar")
     }
+    of_fields = operator.attrgetter("name", "velocity", "effort", "damping", "friction")
+    moving = [[of_fields(j) for j in r.joints if j.kind in MOVING] for r in (robot, read)]
+    assert sorted(moving[0]) == sorted(moving[1])
     assert robot.q_names == tuple(list(model.names)[1:])
     x = np.random.default_rng(0).uniform(-np.pi, np.pi, robot.dof)
     assert error(model, robot, x) <= ROUNDING
@@ -422,3 +428,35 @@ def test_each_part_of_a_joint_of_several_degrees_of_freedom_has_its_own_limits()
     assert robot.q_names == ("j_1", "j_2", "j_3")
     assert [joint.child for joint in robot.joints[:2]] == ["j_1", "j_2"]
     assert robot.limits.tolist() == [[-1, 4], [-2, 5], [-3, math.inf]]
+
+
+def test_each_part_of_a_joint_has_its_own_drive_and_numbers_that_mean_none_are_none():
+    model = stand_in("JointModelTranslation", idx_v=1)
+    model.lowerPositionLimit, model.upperPositionLimit = [-1, -2, -3], [4, 5, 6]
+    model.velocityLimit = [9, 2.5, 0, 1e4]
+    model.effortLimit = [9, 0, 87, sys.float_info.max]
+    model.damping, model.friction = [9, 0.5, -1, 0], [9, 0, math.inf, 0.25]
+    joints = from_object(model).joints[:3]
+    assert [joint.velocity for joint in joints] == [2.5, math.inf, math.inf]
+    assert [joint.effort for joint in joints] == [math.inf, 87, math.inf]
+    assert [joint.damping for joint in joints] == [0.5, 0, 0]
+    assert [joint.friction for joint in joints] == [0, 0, 0.25]
+    free = stand_in("JointModelFreeFlyer", idx_v=0)
+    free.velocityLimit = free.damping = [2.0] * 6
+    floating = from_object(free).joints[0]
+    assert (floating.kind, floating.velocity, floating.damping) == ("floating", math.inf, 0)
+    del model.friction
+    assert [joint.friction for joint in from_object(model).joints[:3]] == [0, 0, 0]
+
+
+def test_a_joint_that_mimics_has_no_drive_of_its_own_as_pinocchio_keeps_none():
+    limit = '<limit lower="-1" upper="1" effort="7" velocity="{}"/>'
+    joints = [
+        f'<joint name="j{k}" type="revolute"><parent link="l{k}"/><child link="l{k + 1}"/>'
+        f"{limit.format(k + 2)}{mimic}</joint>"
+        for k, mimic in enumerate(("", '<mimic joint="j0" multiplier="2"/>', ""))
+    ]
+    links = "".join(f'<link name="l{k}"/>' for k in range(4))
+    text = f'<robot name="r">{links}{"".join(joints)}</robot>'
+    robot = from_object(pinocchio().buildModelFromXML(text, mimic=True))
+    assert [robot.joint(f"j{k}").velocity for k in range(3)] == [2, math.inf, 4]

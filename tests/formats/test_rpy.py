@@ -11,7 +11,7 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import example, given, target
+from hypothesis import assume, example, given, target
 from hypothesis import strategies as st
 
 from poekin.formats import rpy
@@ -125,3 +125,36 @@ def test_planted_errors_are_found(wrong, least):
     ]
     assert max(error(R) - defect(R) for R in cases) <= BAR
     assert max(error(R, wrong) for R in cases) > least
+
+
+@given(turns=st.lists(st.floats(-20, 20), min_size=3, max_size=3), data=st.data())
+def test_the_nearest_angles_are_the_same_turn_and_no_others_are_nearer(turns, data):
+    near = data.draw(st.lists(st.floats(-20, 20), min_size=3, max_size=3))
+    R = rpy.pose((0, 0, 0), turns)[:3, :3]
+    found = rpy.nearest_angles(R, near)
+    # the angles' own rotation is R within 6e-16; to three of them are added up to four whole turns,
+    # each wrong by 2.5e-16, in two roundings of numbers below 32
+    bound = 6e-16 + 3 * (4 * 2.5e-16 + 2 * 2.0**-49)
+    assert np.abs(rpy.pose((0, 0, 0), found)[:3, :3] - R).max() <= bound
+    assert math.dist(found, near) <= _nearest(R, near) + 1e-12
+
+
+def _nearest(R, near):
+    """Distance to the nearest of all angles of a rotation, each tried with up to eight whole turns."""
+    r, p, y = rpy.angles(R)
+    distances = []
+    for branch in ((r, p, y), (r + math.pi, math.pi - p, y + math.pi)):
+        shifts = [
+            min(abs(x + math.tau * k - x0) for k in range(-8, 9))
+            for x, x0 in zip(branch, near, strict=True)
+        ]
+        distances.append(math.hypot(*shifts))
+    return min(distances)
+
+
+@given(turns=st.lists(st.floats(-7, 7), min_size=3, max_size=3))
+def test_angles_near_which_a_rotation_is_written_are_its_own(turns):
+    assume(abs(math.cos(turns[1])) > 0.1)
+    R = rpy.pose((0, 0, 0), turns)[:3, :3]
+    # an entry of R is right to 6e-16, which roll and yaw are ten times as far off by
+    assert np.abs(np.subtract(rpy.nearest_angles(R, turns), turns)).max() <= 2e-14

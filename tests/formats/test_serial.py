@@ -32,6 +32,27 @@ def test_a_follower_does_not_narrow_the_limits_of_its_master():
         )
 
 
+def test_the_velocity_limits_of_a_chain_come_back_to_the_last_digit():
+    for ratio, first in np.random.default_rng(0).uniform(-3, 3, (50, 2)):
+        A = [[0, 0, 1, 0, 0, 0], [0, 0, 1, 0, 0, 0]]
+        for master in (1.0, -1.0, first):
+            chain = Chain.from_space(
+                A, np.eye(4), coupling=[[master], [ratio]], q_names=["q"], velocity_limits=[0.7]
+            )
+            back = again(chain).chain()
+            # x = q (±1), else the robot's coordinate is a joint's own value
+            assert back.velocity_limits == pytest.approx([0.7 * abs(master)], rel=1e-15, abs=0)
+            if abs(master) == 1:
+                assert back.velocity_limits.tolist() == [0.7]
+            slow = again(chain).joint("joint2").velocity
+            assert slow == pytest.approx(0.7 * abs(ratio), rel=1e-15)
+
+
+def test_what_is_not_known_of_a_chain_stays_unknown():
+    robot = serial_robot(two([[1], [2]], q_names=["q"]))
+    assert [joint.velocity for joint in robot.joints] == [math.inf] * 3
+
+
 def two(coupling, offset=(0, 0), kinds=("turn", "turn"), **options) -> Chain:
     A = [[0, 0, 1, 0, 0, 0] if kind == "turn" else [0, 0, 0, 1, 0, 0] for kind in kinds]
     return Chain.from_space(

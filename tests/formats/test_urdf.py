@@ -7,12 +7,13 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from poekin.errors import PoekinWarning
 from poekin.formats import urdf
+from poekin.model.joint import SafetyController
 from poekin.model.robot import Robot
 from tests.formats.texts import LIMIT, chain_of, one_joint
 
@@ -267,6 +268,8 @@ def test_a_quaternion_of_any_length_is_a_turn(size):
 
 
 @given(st.lists(st.floats(-2, 2), min_size=4, max_size=4).filter(lambda q: np.linalg.norm(q) > 0.1))
+@example([0.0, 0.0, 3.6669690912645006e-156, -1.0])  # whose squares are 0 or have few digits
+@example([3.6669690912645006e-156, 0.0, 0.0, 2.0])
 def test_a_quaternion_turns_an_origin_where_the_robot_says_version_1_1(quaternion):
     values = " ".join(map(repr, quaternion))
     text = one_joint(f'<origin xyz="1 2 3" quat_xyzw="{values}"/>{LIMIT}')
@@ -290,6 +293,78 @@ def test_a_quaternion_that_nobody_reads_is_told(version):
     with pytest.warns(PoekinWarning, match=words):
         robot = urdf.read_text(text, "f")
     assert (robot.joints[0].origin == np.eye(4)).all()
+
+
+KNOWN = [
+    ('velocity="2.5"', (2.5, math.inf)),
+    ('velocity="9999.5" effort="1e7"', (9999.5, 1e7)),
+    ('effort="87"', (math.inf, 87)),
+    ('velocity="0" effort="0"', (math.inf, math.inf)),
+    ('velocity="-1" effort="-3"', (math.inf, math.inf)),
+    ('velocity="10000" effort="inf"', (math.inf, math.inf)),
+    ('effort="1e16"', (math.inf, math.inf)),
+    ('effort="9.9e15"', (math.inf, 9.9e15)),
+    ("", (math.inf, math.inf)),
+]
+
+
+@pytest.mark.parametrize("kind", ["revolute", "prismatic", "continuous", "fixed"])
+@pytest.mark.parametrize("written, known", KNOWN)
+def test_velocity_and_effort_are_read_where_they_are_known(kind, written, known):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        (joint,) = read(f'<limit lower="-1" upper="1" {written}/>', kind).joints
+    assert (joint.velocity, joint.effort) == known
+
+
+@pytest.mark.parametrize(
+    "written, losses",
+    [
+        ('<dynamics damping="0.5" friction="0.25"/>', (0.5, 0.25)),
+        ('<dynamics friction="0.25"/>', (0, 0.25)),
+        ('<dynamics damping="-1"/>', (0, 0)),
+        ("<dynamics/>", (0, 0)),
+        ("", (0, 0)),
+    ],
+)
+def test_damping_and_friction_are_read(written, losses):
+    (joint,) = read(LIMIT + written).joints
+    assert (joint.damping, joint.friction) == losses
+
+
+def test_a_safety_controller_is_read():
+    whole = 'k_velocity="40" k_position="100" soft_lower_limit="-2.8" soft_upper_limit="2.7"'
+    for written, expected in (
+        (f"<safety_controller {whole}/>", SafetyController(40, 100, -2.8, 2.7)),
+        ('<safety_controller k_velocity="10"/>', SafetyController(10, 0, 0, 0)),
+        ("", None),
+    ):
+        (joint,) = read(LIMIT + written).joints
+        assert joint.safety_controller == expected
+
+
+@pytest.mark.parametrize(
+    "first, second",
+    [
+        ('<dynamics damping="1"/>', '<dynamics damping="2"/>'),
+        ('<safety_controller k_velocity="1"/>', '<safety_controller k_velocity="2"/>'),
+    ],
+)
+def test_of_two_elements_of_a_drive_the_first_counts(first, second):
+    with pytest.warns(PoekinWarning, match=r"stands there once more, and the first one counts$"):
+        both = read(LIMIT + first + second)
+    assert both == read(LIMIT + first)
+
+
+def test_the_velocity_limits_of_a_chain_are_those_of_its_file():
+    text = chain_of(
+        '<limit velocity="3"/>', "", '<limit velocity="1"/><mimic joint="j0" multiplier="-2"/>'
+    )
+    chain = urdf.read_text(text, "x.urdf").chain()
+    assert chain.q_names == ("j0", "j1")
+    assert chain.velocity_limits.tolist() == [0.5, math.inf]
+    back = urdf.read_text(text, "x.urdf").chain(base="l3", tip="l1")
+    assert back.velocity_limits.tolist() == [0.5, math.inf]
 
 
 def test_a_continuous_joint_has_no_limits_and_no_warning():

@@ -256,6 +256,13 @@ REFUSED = {
             r"\(an unprocessed xacro expression\?\)$"
         ),
     ),
+    "an argument of xacro": (
+        one_joint('<origin xyz="$(arg x) 0 0"/>'),
+        (
+            r"^x\.urdf:4: joint 'j': <origin>: xyz must be three numbers, got 4: '\$\(arg x\) 0 0' "
+            r"\(an unprocessed xacro expression\?\)$"
+        ),
+    ),
     "a zero axis": (
         one_joint('<axis xyz="0 0 -0.0"/>'),
         r"^x\.urdf:4: joint 'j': <axis>: xyz must not be zero$",
@@ -521,6 +528,14 @@ SENTENCES = {
     "far": (one_joint('<origin xyz="0 -1e155 0"/>'),
             "x.urdf:4: joint 'j': <origin>: xyz: expected lengths of at most 1e+100 m, got (0.0, -1e+155, 0.0)"),
     "axis": (one_joint("<axis/>"), "x.urdf:4: joint 'j': <axis>: expected an attribute xyz=\"...\", there is none"),
+    "velocity": (one_joint('<limit lower="0" upper="1" velocity="fast"/>'),
+                 "x.urdf:4: joint 'j': <limit>: velocity must be a number, got 'fast'"),
+    "effort": (one_joint('<limit lower="0" upper="1" effort="nan"/>'),
+               "x.urdf:4: joint 'j': <limit>: effort must be a number, got 'nan'"),
+    "damping": (one_joint(LIMIT + '<dynamics damping="inf"/>'),
+                "x.urdf:4: joint 'j': <dynamics>: damping must be a finite number, got 'inf'"),
+    "safety": (one_joint(LIMIT + '<safety_controller k_velocity="1,5"/>'),
+               "x.urdf:4: joint 'j': <safety_controller>: k_velocity must be a finite number, got '1,5'"),
     "limit": (one_joint('<limit lower="0" upper="high"/>'),
               "x.urdf:4: joint 'j': <limit>: upper must be a number, got 'high'"),
     "multiplier": (one_joint(LIMIT + '<mimic joint="j" multiplier="inf"/>'),

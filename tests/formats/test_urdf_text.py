@@ -8,6 +8,7 @@ import re
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,10 +24,10 @@ from poekin.formats.load import load
 from poekin.formats.serial import serial_robot
 from poekin.formats.urdf_text import to_urdf
 from poekin.model.chain import Chain
-from poekin.model.joint import FREE
+from poekin.model.joint import FREE, MOVING, Joint, SafetyController
 from poekin.model.robot import Robot
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle, pinocchio
 from poekin.testing.strategies.chain_strategies import chains
 from tests.model.laws.chain_bounds import budget
 from tests.model.test_robot import random_q, robots, seeds, size
@@ -40,6 +41,9 @@ def quietly(make: Callable, *args, **options):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", PoekinWarning)
         return make(*args, **options)
+
+
+DRIVE = ("velocity", "effort", "damping", "friction", "safety_controller")
 
 
 def again(model: Robot | Chain) -> Robot:
@@ -60,7 +64,8 @@ def differences(robot: Robot, other: Robot) -> list[str]:
         kind = "continuous" if a.kind == "revolute" and a.limits == (-INF, INF) else a.kind
         wanted = (a.name, kind, a.parent, a.child, a.mimic, a.origin[:3, 3].tolist())
         got = (b.name, b.kind, b.parent, b.child, b.mimic, b.origin[:3, 3].tolist())
-        same = wanted == got and np.abs(a.origin - b.origin).max() <= 1.5e-15
+        same = all(getattr(a, field) == getattr(b, field) for field in DRIVE)
+        same &= wanted == got and np.abs(a.origin - b.origin).max() <= 1.5e-15
         same &= kind in ("fixed", "floating") or a.axis == b.axis
         same &= kind not in ("revolute", "prismatic") or a.limits == b.limits
         found += [] if same else [f"joint {a.name}"]
@@ -84,6 +89,21 @@ def text_off(robot: Robot, other: Robot, seed: int, rows: int = 1) -> np.ndarray
 
 
 @st.composite
+def drives(draw) -> dict[str, Any]:
+    """What a joint may say of its drive, each with or without a number."""
+    loss = st.floats(0, 1e6)
+    bound = st.floats(1e-6, 9999)
+    number = st.floats(-1e6, 1e6)
+    return {
+        "velocity": draw(bound | st.just(INF)),
+        "effort": draw(bound | st.just(INF)),
+        "damping": draw(loss),
+        "friction": draw(loss),
+        "safety_controller": draw(st.none() | st.builds(SafetyController, *[number] * 4)),
+    }
+
+
+@st.composite
 def limited(draw, **options) -> Robot:
     """A robot as in the tests of robots, without pitch, with limits of all sorts."""
     robot = draw(robots(("revolute", "continuous", "prismatic", "fixed", *FREE), **options))
@@ -92,7 +112,7 @@ def limited(draw, **options) -> Robot:
         st.just((-INF, INF)), bound.map(lambda b: (b, INF)), bound.map(lambda b: (-INF, b)),
         st.tuples(bound, bound).map(sorted).filter(lambda pair: pair[0] < pair[1]),
     )  # fmt: skip
-    joints = [replace(j, limits=draw(ends)) for j in robot.joints]
+    joints = [replace(j, limits=draw(ends), **draw(drives())) for j in robot.joints]
     return quietly(Robot, robot.name, robot.links, joints)
 
 
@@ -210,7 +230,53 @@ def test_every_example_robot_comes_back_and_pinocchio_sees_each_of_its_chains(na
         assert np.abs(T - theirs[link]).max() <= 1e-14 * reach
         assert np.abs(T - peers[link][0]).max() <= 1e-13 * reach
     for seed, chain in enumerate(chains):
+        assert back.chain(chain.base, chain.tip).velocity_limits.tolist() == list(
+            chain.velocity_limits
+        )
         assert (pinocchio_errors(chain, to_urdf(chain), seed) <= rounding(chain, seed)).all()
+
+
+def numbers_in_pinocchio(text: str, joint: Joint) -> dict[str, float]:
+    """What Pinocchio reads of a joint's drive."""
+    model = pinocchio().buildModelFromXML(text)
+    k = model.joints[model.getJointId(joint.name)].idx_v
+    return {
+        "velocity": model.velocityLimit[k],
+        "effort": model.effortLimit[k],
+        "damping": model.damping[k],
+        "friction": model.friction[k],
+    }
+
+
+@given(robot=limited())
+def test_pinocchio_reads_the_drives_that_are_written(robot):
+    text = quietly(to_urdf, robot)
+    for joint in robot.joints:
+        if joint.kind not in MOVING:
+            continue
+        for field, found in numbers_in_pinocchio(text, joint).items():
+            wanted = getattr(joint, field)
+            assert found == wanted or (wanted == INF and found == 0)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_pinocchio_reads_the_drives_of_an_example_as_in_its_own_file(name):
+    robot = quietly(load, f"erd:{name}")
+    text = to_urdf(robot)
+    assert 'effort="1e+16"' not in text
+    path = example_robots()[0][name]
+    own = pinocchio().buildModelFromUrdf(path)
+    written = pinocchio().buildModelFromXML(text)
+    for joint in robot.joints:
+        if joint.kind not in MOVING:
+            continue
+        k, i = (m.joints[m.getJointId(joint.name)].idx_v for m in (own, written))
+        assert own.damping[k] == written.damping[i]
+        assert own.friction[k] == written.friction[i]
+        if math.isfinite(joint.velocity):
+            assert own.velocityLimit[k] == written.velocityLimit[i] == joint.velocity
+        if math.isfinite(joint.effort):
+            assert own.effortLimit[k] == written.effortLimit[i] == joint.effort
 
 
 def limb() -> Chain:

@@ -17,7 +17,7 @@ from poekin.formats import urdf
 from poekin.formats.load import load
 from poekin.formats.urdf_text import UNLIMITED, to_urdf
 from poekin.model.chain import Chain
-from poekin.model.joint import Joint, JointKind, Mimic
+from poekin.model.joint import Joint, JointKind, Mimic, SafetyController
 from poekin.model.robot import Robot
 from poekin.testing.oracles.pinocchio_oracle import pinocchio
 from tests.formats.test_urdf_text import again, limb
@@ -35,6 +35,9 @@ def test_the_text_says_what_it_says():
         (0, 0, 1),
         (-1, 0.1 + 0.2),
         Mimic("slide", -0.5, 0.25),
+        velocity=2.5,
+        friction=0.25,
+        safety_controller=SafetyController(40, 100, -0.9, 0.2),
     )
     slide = Joint(
         "slide",
@@ -50,6 +53,7 @@ def test_the_text_says_what_it_says():
         to_urdf(robot, name="two")
         == """<?xml version="1.0"?>
 <robot name="two">
+  <!-- effort and velocity 0: not known -->
   <link name="upper"/>
   <link name="fore"/>
   <link name="hand"/>
@@ -58,7 +62,9 @@ def test_the_text_says_what_it_says():
     <child link="fore"/>
     <origin xyz="0 0 0" rpy="0 0 0"/>
     <axis xyz="0 0 1"/>
-    <limit lower="-1" upper="0.30000000000000004" effort="1e+16" velocity="1e+16"/>
+    <limit lower="-1" upper="0.30000000000000004" effort="0" velocity="2.5"/>
+    <dynamics damping="0" friction="0.25"/>
+    <safety_controller k_velocity="40" k_position="100" soft_lower_limit="-0.9" soft_upper_limit="0.2"/>
     <mimic joint="slide" multiplier="-0.5" offset="0.25"/>
   </joint>
   <joint name="slide" type="prismatic">
@@ -66,7 +72,7 @@ def test_the_text_says_what_it_says():
     <child link="hand"/>
     <origin xyz="0 0 1e-17" rpy="0 0 1.5"/>
     <axis xyz="0 1 0"/>
-    <limit lower="-1e+16" upper="1" effort="1e+16" velocity="1e+16"/>
+    <limit lower="-1e+16" upper="1" effort="0" velocity="0"/>
   </joint>
 </robot>
 """

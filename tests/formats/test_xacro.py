@@ -91,6 +91,87 @@ def test_a_package_is_found_above_the_file_and_is_not_that_of_the_next_file(tmp_
     ]  # fmt: skip
 
 
+USES = HEAD + '<xacro:include filename="$(find my_arm)/urdf/p.xacro"/></robot>'
+
+
+def _package(folder, link: str) -> None:
+    """A package with a file of one link."""
+    (folder / "urdf").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>my_arm</name></package>")
+    (folder / "urdf" / "p.xacro").write_text(HEAD + f'<link name="{link}"/></robot>')
+
+
+def _installed(prefix, link: str) -> None:
+    """The package as colcon installs it."""
+    _package(prefix / "share" / "my_arm", link)
+    index = prefix / "share" / "ament_index" / "resource_index" / "packages"
+    index.mkdir(parents=True)
+    (index / "my_arm").touch()
+
+
+@needs_xacro
+def test_a_package_is_found_beside_the_file_then_where_the_environment_says(tmp_path, monkeypatch):
+    file = tmp_path / "ws" / "mine" / "r.xacro"
+    file.parent.mkdir(parents=True)
+    file.write_text(USES)
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
+    with pytest.raises(ModelError) as caught:
+        xacro(file)
+    assert str(caught.value) == (
+        f"{file}: xacro: there is no package 'my_arm' in the folders above the file and beside these, in"
+        " AMENT_PREFIX_PATH (not set) or ROS_PACKAGE_PATH (not set), and where xacrodoc.packages.look_in"
+        " was told to"
+    )
+    _package(tmp_path / "src" / "my_arm", "ros1")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"))
+    assert xacro(file).links == ("ros1",)
+    _installed(tmp_path / "install", "ros2")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "install"))
+    assert xacro(file).links == ("ros2",)
+    told = tmp_path / "told"
+    _package(told / "my_arm", "told")
+    packages = pytest.importorskip("xacrodoc").packages
+    packages.look_in(str(told))
+    try:
+        assert xacro(file).links == ("told",)
+        _package(tmp_path / "ws" / "my_arm", "beside")
+        assert xacro(file).links == ("beside",)
+    finally:
+        packages.reset()
+    packages.update_package_cache({"my_arm": told / "my_arm"})
+    try:
+        (tmp_path / "ws" / "my_arm" / "package.xml").write_text("<package><name>x</name></package>")
+        assert xacro(file).links == ("told",)
+    finally:
+        packages.reset()
+
+
+@needs_xacro
+def test_a_file_may_be_named_by_its_package(tmp_path, monkeypatch):
+    _installed(tmp_path, "a")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    assert xacro("package://my_arm/urdf/p.xacro").links == ("a",)
+    with pytest.raises(FileError, match="there is no package 'no_arm' in AMENT_PREFIX_PATH"):
+        xacro("package://no_arm/urdf/p.xacro")
+
+
+@needs_xacro
+def test_a_file_of_macros_says_that_it_is_no_robot(tmp_path):
+    file = tmp_path / "m.xacro"
+    file.write_text(
+        HEAD + '<xacro:macro name="m" params="n"><link name="${n}"/></xacro:macro></robot>'
+    )
+    with pytest.raises(ModelError) as caught:
+        xacro(file)
+    assert str(caught.value) == (
+        f"{file}: xacro: the file defines macros only, and no robot: evaluate the file that uses them"
+    )
+    file.write_text(HEAD + "</robot>")
+    with pytest.raises(ModelError, match="expected at least one <link>"):
+        xacro(file)
+
+
 REFUSED = {
     "an unknown package": (
         '<link name="$(find nopkg)"/>',

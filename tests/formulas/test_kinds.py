@@ -24,6 +24,7 @@ from poekin.formulas.lie import (
     coefficients,
     compensated,
     defect,
+    euler,
     exp_jacobian,
     exponential,
     logarithm,
@@ -40,6 +41,7 @@ T1 = tuple(map(float, exponential.se3(W, V)))
 T2 = tuple(map(float, exponential.se3(LONG, V)))
 R1, R2 = T1[:9], T2[:9]
 TURNED = (1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0)
+DOWNWARD = (0.0, -0.6, 0.8, 0.0, 0.8, 0.6, -1.0, 0.0, 0.0)  # Ry(90 deg) after a turn about z
 N = 4
 LINKS = [
     list(map(float, exponential.se3(tuple(w), tuple(v)))) for w, v in rng.normal(size=(N + 1, 2, 3))
@@ -149,6 +151,11 @@ CASES = [
         for w in ((0.6, 0.0, 0.8), (0.0, 0.0, 0.0))
     ],
     *[(f, R) for f in (quaternion.parts, quaternion.quaternion) for R in (R1, R2, TURNED)],
+    *[(quaternion.unit_quaternion, R) for R in (R1, R2, TURNED)],
+    (quaternion.rotation, 0.3, -0.4, 0.5, 0.7),
+    *[(f, 0.6, 0.8, 0.28, 0.96, -0.8, 0.6) for f in (euler.zyx, euler.zyz)],
+    *[(euler.zyx_turns, R) for R in (R1, R2, DOWNWARD)],
+    *[(euler.zyz_turns, R) for R in (R1, R2, TURNED)],
     *[(logarithm.so3, R) for R in (R1, R2, TURNED)],
     *[(logarithm.se3, T) for T in (T1, T2)],
     *[(logarithm.so3_near, R, w) for R in (R1, R2, TURNED) for w in (W, (2.5, -4.0, 4.0))],
@@ -290,6 +297,7 @@ DIVIDE = (
     compensated,
     exponential,
     quaternion,
+    euler,
     logarithm,
     exp_jacobian,
     defect,

@@ -136,9 +136,10 @@ def test_example_1_of_the_paper():
 
 
 def test_equal_chains_are_equal_and_hash_and_pickle_alike():
-    a = arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]])
+    options = {"limits": [[-1, 1], [-2, np.inf], [0, 0.5]], "velocity_limits": [1, np.inf, 0.1]}
+    a = arm(**options)
     for b in (
-        arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]]),
+        arm(**options),
         copy.deepcopy(a),
         pickle.loads(pickle.dumps(a)),
     ):
@@ -152,7 +153,13 @@ def test_equal_chains_are_equal_and_hash_and_pickle_alike():
 
 
 @pytest.mark.parametrize(
-    "change", [{"base": "b"}, {"limits": [[-1, 1]] * 3}, {"offset": [0, 0, 1e-9]}]
+    "change",
+    [
+        {"base": "b"},
+        {"limits": [[-1, 1]] * 3},
+        {"offset": [0, 0, 1e-9]},
+        {"velocity_limits": [np.inf, np.inf, 2]},
+    ],
 )
 def test_chains_that_differ_are_not_equal(change):
     assert arm() != arm(**change)
@@ -185,7 +192,8 @@ def test_making_exact_twice_changes_nothing():
 
 def test_nothing_of_a_chain_can_be_changed():
     a = arm()
-    for array in (a.screws, a.home, a.limits, a.coupling, a.offset, *a.space, a.local.frames):
+    arrays = (a.screws, a.home, a.limits, a.coupling, a.offset, a.velocity_limits)
+    for array in (*arrays, *a.space, a.local.frames):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
     with pytest.raises(
@@ -320,6 +328,18 @@ def test_six_numbers_that_are_no_screw_are_refused(screw, message):
             "lower <= upper for 'lift', got 2.0 and 1.0",
         ),
         ({"limits": [[0, 1], [np.nan, 1], [0, 1]]}, InputError, "'lift'"),
+        (
+            {"velocity_limits": [1, 2]},
+            ShapeError,
+            r"^velocity_limits: expected shape \(3,\), one of each coordinate, got \(2,\)$",
+        ),
+        (
+            {"velocity_limits": [1, 0, 2]},
+            InputError,
+            "velocity_limits: expected a positive number for 'lift', infinite where it is not known, "
+            "got 0.0",
+        ),
+        ({"velocity_limits": [1, 2, np.nan]}, InputError, "'slide'.*got nan"),
         ({"joint_names": ["a", "b"]}, ShapeError, "expected 3 names"),
         ({"joint_names": ["a", "b", "a"]}, InputError, "'a' appears more than once"),
         ({"coupling": np.eye(2)}, ShapeError, r"expected shape \(3, m\)"),
@@ -452,6 +472,33 @@ def test_random_of_a_geared_coordinate_without_limits_is_one_turn_of_the_fastest
 def test_limits_move_with_the_zero():
     a = arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]]).rezeroed([0.5, 1, 0.25])
     np.testing.assert_array_equal(a.limits, [[-1.5, 0.5], [-3, np.inf], [-0.25, 0.25]])
+
+
+def test_velocity_limits_are_infinite_unless_given_and_a_copy_of_what_is_given():
+    assert arm().velocity_limits.tolist() == [np.inf] * 3
+    given = np.array([1.0, np.inf, 0.5])
+    a = arm(velocity_limits=given)
+    given[:] = 9
+    assert a.velocity_limits.tolist() == [1, np.inf, 0.5]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda a: a.rezeroed([0.5, 1, 0.25]),
+        lambda a: a.rebased(HOME),
+        lambda a: a.retooled(HOME, tip="hand"),
+        lambda a: a.idealised(1e-3).chain,
+        lambda a: a.replace(screws=a.screws.copy()),
+    ],
+    ids=["rezeroed", "rebased", "retooled", "idealised", "replaced"],
+)
+def test_another_frame_or_zero_leaves_the_velocity_limits(change):
+    assert change(arm(velocity_limits=[1, np.inf, 0.5])).velocity_limits.tolist() == [
+        1,
+        np.inf,
+        0.5,
+    ]
 
 
 def test_threads_share_a_chain():

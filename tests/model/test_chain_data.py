@@ -34,6 +34,7 @@ def data_of(chain):
         base=chain.base,
         tip=chain.tip,
         pitches=chain.pitches,
+        velocity_limits=chain.velocity_limits,
     )
 
 
@@ -109,16 +110,17 @@ def test_new_screws_have_pitches_of_their_own_unless_pitches_are_given(old, new,
 NAMES = ["a", "b", "c"]
 THREE = pk.Chain.from_space([TURN, SLIDE, TURN], MOVED, joint_names=NAMES, offset=[0, 0, 1])
 GEARED = pk.Chain.from_space([TURN, SLIDE, TURN], MOVED, coupling=[[1, 0], [2, 0], [0, 1]])
-DEFAULTS = {"joint_names": None, "offset": None, "q_names": None, "limits": None}
+NAMED = ("joint_names", "offset", "q_names", "limits", "velocity_limits")
+DEFAULTS = dict.fromkeys(NAMED)
 
 
 @pytest.mark.parametrize(
     "chain, given_too, missing",
     [
-        (THREE, (), "joint_names, q_names, limits, offset"),
-        (THREE, ("limits", "joint_names"), "q_names, offset"),
-        (GEARED, (), "joint_names, q_names, limits, coupling, offset"),
-        (GEARED, ("q_names", "coupling"), "joint_names, limits, offset"),
+        (THREE, (), "joint_names, q_names, limits, offset, velocity_limits"),
+        (THREE, ("limits", "joint_names"), "q_names, offset, velocity_limits"),
+        (GEARED, (), "joint_names, q_names, limits, coupling, offset, velocity_limits"),
+        (GEARED, ("q_names", "coupling", "velocity_limits"), "joint_names, limits, offset"),
     ],
 )
 def test_more_or_fewer_screws_say_what_has_to_be_given_with_them(chain, given_too, missing):

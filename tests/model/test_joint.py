@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from poekin.errors import InputError, ModelError, PoekinError, PoseError, ShapeError
 from poekin.model.checks import one_pose
-from poekin.model.joint import KINDS, Joint, Mimic
+from poekin.model.joint import KINDS, Joint, Mimic, SafetyController
 from poekin.model.provenance import Source
 from poekin.model.robot import Robot
 from poekin.testing.strategies.group_strategies import frozen, poses
@@ -88,6 +88,77 @@ def test_a_joints_screw_is_its_kind_in_numbers(kind, screw):
 
 def test_a_continuous_joint_has_no_limits():
     assert joint(kind="continuous", limits=(-1, 1)).limits == (-math.inf, math.inf)
+
+
+DRIVE = {
+    "velocity": 2.5,
+    "effort": 87,
+    "damping": 0.5,
+    "friction": 0.25,
+    "safety_controller": SafetyController(40, 100, -2.8, 2.8),
+}
+
+
+def test_of_a_joint_s_drive_nothing_is_known_unless_said():
+    plain = joint()
+    assert (plain.velocity, plain.effort) == (math.inf, math.inf)
+    assert (plain.damping, plain.friction) == (0, 0)
+    assert plain.safety_controller is None
+    assert SafetyController() == SafetyController(0, 0, 0, 0)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_joint_keeps_what_is_said_of_its_drive_and_equals_its_copies(kind):
+    one = joint(kind=kind, **DRIVE)
+    assert {field: getattr(one, field) for field in DRIVE} == DRIVE
+    assert all(isinstance(getattr(one, field), float) for field in list(DRIVE)[:4])
+    copy = pickle.loads(pickle.dumps(one))
+    assert copy == one
+    assert hash(copy) == hash(one)
+
+
+@pytest.mark.parametrize("field", DRIVE)
+def test_joints_of_other_drives_are_unequal(field):
+    other = {"safety_controller": SafetyController(40, 100, -2.8, 2.7)}
+    assert joint(**DRIVE) != joint(**DRIVE | {field: other.get(field, 1.0)})
+
+
+NO_BOUND = "expected a positive number, infinite where it is not known, got"
+NO_LOSS = "expected no negative number, got"
+BAD_DRIVES = [
+    ("velocity", 0, f"{NO_BOUND} 0"),
+    ("velocity", -1.5, f"{NO_BOUND} -1.5"),
+    ("velocity", math.nan, f"{NO_BOUND} nan"),
+    ("velocity", "fast", f"{NO_BOUND} 'fast'"),
+    ("velocity", None, f"{NO_BOUND} None"),
+    ("effort", 0.0, f"{NO_BOUND} 0.0"),
+    ("effort", 10**400, f"{NO_BOUND} {'1' + '0' * 400}"),
+    ("damping", -0.1, f"{NO_LOSS} -0.1"),
+    ("damping", math.inf, "expected 1 finite number(s), got (inf,)"),
+    ("friction", -1, f"{NO_LOSS} -1"),
+    ("friction", None, "expected 1 finite number(s), got (None,)"),
+]
+
+
+@pytest.mark.parametrize("field, value, message", BAD_DRIVES)
+def test_a_drive_of_impossible_numbers_is_refused_by_joint_and_field(field, value, message):
+    with pytest.raises(ModelError) as caught:
+        joint(**{field: value})
+    assert str(caught.value).startswith(f"joint 'j': {field}: {message[:60]}")
+
+
+def test_what_is_no_safety_controller_is_refused():
+    with pytest.raises(
+        ModelError, match=r"^joint 'j': safety_controller must be a Safety.* got 5$"
+    ):
+        joint(safety_controller=5)
+    for field in ("k_velocity", "k_position", "soft_lower_limit", "soft_upper_limit"):
+        with pytest.raises(ModelError, match=rf"^safety_controller: {field}: expected 1 finite"):
+            SafetyController(**{field: math.inf})
+
+
+def test_no_damping_has_no_sign():
+    assert math.copysign(1, joint(damping=-0.0).damping) == 1
 
 
 def test_a_joint_is_frozen():

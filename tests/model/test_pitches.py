@@ -96,6 +96,14 @@ def test_pitches_that_are_given_decide_and_the_screws_are_made_exact():
     assert not fine.pitches.flags.writeable
 
 
+def test_a_chain_in_a_file_keeps_the_velocity_limits_that_it_has():
+    for limits in (None, [np.inf, 2.5, np.inf]):
+        chain = UR5E.replace(velocity_limits=limits and limits * 2)
+        data = chain_toml.to_data(chain)
+        assert ("velocity_limits" in data) == (limits is not None)
+        assert chain_toml.to_chain(Keys(data, "file.toml")) == chain
+
+
 def test_a_chain_in_a_file_keeps_its_pitches():
     for chain in (UR5E, mixed(1e-18).rebased(pk.se3.exp([1, 2, 3, 4, 5, 6]))):
         data = chain_toml.to_data(chain)

@@ -166,6 +166,12 @@ REFUSED = [
         ShapeError,
         "screws: expected shape (n, 6), one row (omega; v) a joint, got (2, 2, 6)",
     ),
+    (
+        [[0], [0], [1], [0], [0], [0]],
+        ShapeError,
+        "screws: expected shape (n, 6), one row (omega; v) a joint, got (6, 1); its columns are unit"
+        " screws, as in a Slist: pass screws.T",
+    ),
     (5.0, ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got ()"),
     (
         [[0, 0, 1, 0, 0, 0, 0]],

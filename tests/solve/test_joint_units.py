@@ -42,6 +42,11 @@ def coupled() -> pk.Chain:
     return pk.Chain.from_space(axes, home, coupling=C, q_names=list("abcdef"), limits=limits)
 
 
+def test_coordinates_in_the_units_of_their_joints_need_no_scale():
+    assert joint_units(UR5E.compile()).scale is None
+    assert joint_units(coupled().compile()).scale is None
+
+
 ARMS = {"ur5e": UR5E, "panda": PANDA, "coupled": coupled()}
 
 

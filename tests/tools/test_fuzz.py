@@ -24,7 +24,7 @@ from tools.fuzz.watch import Child, Tally
 EACH = 250
 """Inputs to each reader; CI gives them 10⁴ more (`make fuzz COUNT=10000`)."""
 SEED = 7
-PACKAGES = {"MJCF": "mujoco", "xacro": "xacrodoc", "UR YAML": "yaml"}
+PACKAGES = {"MJCF": "mujoco", "xacro": "xacrodoc", "calibration YAML": "yaml"}
 HERE = "tests.tools.planted_readers"
 
 
@@ -107,8 +107,8 @@ FOUND = {
         + b"\n"
         + b"\x01\x00\xa0\x7f" * 3,
     ),
-    "a character beyond Unicode": ("UR YAML", rb'"\U00110000"'),
-    "a character beyond all numbers": ("UR YAML", rb'kinematics: "\UFFFFFFFF"'),
+    "a character beyond Unicode": ("calibration YAML", rb'"\U00110000"'),
+    "a character beyond all numbers": ("calibration YAML", rb'kinematics: "\UFFFFFFFF"'),
     "a quaternion without a square": ("poses CSV", b"5,3,1,1e308,9,1,2"),
 }
 

@@ -17,12 +17,14 @@ from poekin.cli import npy
 from poekin.errors import PoekinError
 from poekin.formats import urdf
 from poekin.formats.mjcf import mjcf
+from poekin.formats.poses.layout import OF_CONTROLLERS
 from poekin.solve import motion
 from poekin.solve.calibration.measurements import data
 from poekin.solve.calibration.report import toml_io
 
 from . import seeds, table_grammar, xml_grammar
 from .draw import Draw
+from .mutate import encoded
 
 
 @dataclass(frozen=True)
@@ -80,15 +82,23 @@ def _as_text(path: str) -> str:
     return Path(path).read_bytes().decode("utf-8", "surrogateescape")
 
 
+def _any_text(path: str) -> pk.Robot:
+    return pk.from_text(Path(path).read_bytes())
+
+
+def _message(d: Draw) -> bytes:
+    return seeds.message(encoded(xml_grammar.urdf(d)), d.pick(seeds.MESSAGES))
+
+
 def _nearest(deltas: Any) -> None:
     """The calibration that deltas of a DH table make."""
     nominal = pk.dh.published("ur10e")
     move(pk.ur.from_dh(pk.ur.add_deltas(nominal, **deltas), nominal=nominal).to_robot())
 
 
-def _ur_yaml(path: str) -> pk.Robot:
-    """As the file says, and as the driver would mean it."""
-    pk.ur.read(path, rpy="moving")
+def _calibration_yaml(path: str) -> pk.Robot:
+    """As the file says, and as Universal Robots' driver would mean it."""
+    pk.vendors.read(path, rpy="moving")
     return pk.load(path)
 
 
@@ -96,6 +106,13 @@ def _poses(path: str) -> Any:
     """In each format: the file does not say which it is."""
     return _first(lambda said: motion.read_poses(path, said[0], quaternion=said[1]),
                   [("12", None), ("16", None), ("7", "wxyz"), ("7", "xyzw")])  # fmt: skip
+
+
+def _pose_text(path: str) -> Any:
+    """In the format of each controller, as a file and as a text."""
+    text = _as_text(path)
+    ways = [(source, format) for format in OF_CONTROLLERS for source in (Path(path), text)]
+    return _first(lambda way: pk.poses.read(way[0], way[1]), ways)
 
 
 def _measured(path: str) -> Any:
@@ -138,14 +155,19 @@ READERS: dict[str, Reader] = {
     for reader in (
         Reader("URDF", "input.urdf", pk.load, xml_grammar.urdf, seeds.urdf, move, share=1.0),
         Reader("URDF as str", "input.urdf", _text, xml_grammar.urdf, seeds.urdf, move),
+        Reader("any text", "input.txt", _any_text, _message, seeds.piped, move),
         Reader("MJCF", "input.xml", pk.load, xml_grammar.mjcf, seeds.mjcf, move, beside=xml_grammar.INCLUDED),
         Reader("MJCF as text", "input.xml", _mjcf_text, xml_grammar.mjcf, seeds.mjcf, move),
         Reader("xacro", "input.xacro", pk.xacro, xml_grammar.xacro, seeds.xacro, move, beside=xml_grammar.INCLUDED),
         Reader("DH TOML", "input.toml", pk.load, table_grammar.dh_toml, seeds.dh_toml, move),
         Reader("DH CSV", "input.csv", pk.load, table_grammar.dh_csv, seeds.dh_csv, move),
-        Reader("UR YAML", "input.yaml", _ur_yaml, table_grammar.ur_yaml, seeds.ur_yaml, move),
+        Reader(
+            "calibration YAML", "input.yaml", _calibration_yaml,
+            table_grammar.calibration_yaml, seeds.calibration_yaml, move,
+        ),
         Reader("UR conf", "input.conf", pk.ur.read_deltas, table_grammar.ur_conf, seeds.ur_conf, _nearest),
         Reader("poses CSV", "input.csv", _poses, table_grammar.poses_csv, lambda: seeds.written()["poses"]),
+        Reader("pose texts", "input.txt", _pose_text, table_grammar.poses_csv, seeds.pose_texts),
         Reader(
             "joints CSV", "input.csv", lambda path: motion.read_joints(path, seeds.chain()),
             table_grammar.joints_csv, lambda: seeds.written()["joints"],

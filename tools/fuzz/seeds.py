@@ -4,10 +4,12 @@ poekin writes.
 
 from __future__ import annotations
 
+import gzip
 import importlib.util
 import io
 import re
 import tempfile
+import zipfile
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -16,11 +18,12 @@ import numpy as np
 
 import poekin as pk
 from poekin.errors import MissingExtra
-from poekin.formats import catalogue, dh, erd, ur
+from poekin.formats import catalogue, dh, erd
 from poekin.formats.dh import table_io as dh_files
 from poekin.formats.dh.published_tables import NAMES
-from poekin.formats.text.pose_rows import PoseFormat, QuaternionOrder
-from poekin.formats.ur import yaml_io
+from poekin.formats.poses.layout import FORMATS, OF_CONTROLLERS, PoseFormat, QuaternionOrder
+from poekin.formats.vendors import ur, yaml_io
+from poekin.formats.vendors.known_arms import known_arms
 
 SMALL = 16_000
 """Bytes of a file; a longer one loses its shapes and masses, which no reader looks at, and what is
@@ -41,6 +44,72 @@ def urdf() -> tuple[bytes, ...]:
     except MissingExtra:
         pass
     return tuple(text if len(text) <= SMALL else _shorter(text) for text in texts)
+
+
+_TF2_ECHO = b"""At time 1700000000.12345
+- Translation: [0.659, 0.459, 1.550]
+- Rotation: in Quaternion (xyzw) [-0.604, 0.696, 0.293, 0.254]
+- Rotation: in RPY (radian) [2.999, 0.787, -1.771]
+- Rotation: in RPY (degree) [171.830, 45.092, -101.471]
+- Matrix:
+ -0.140 -0.990  0.000  0.659
+"""
+_LS = b"""P[1]{
+   GP1:
+\tUF : 1, UT : 1,\t\tCONFIG : 'N U T, 0, 0, 0',
+\tX =  -464.787  mm,\tY =   .002  mm,\tZ =   1.  mm,
+\tW =   142.550 deg,\tP =    72.302 deg,\tR =  -130.575 deg
+};
+"""
+
+
+@cache
+def pose_texts() -> tuple[bytes, ...]:
+    """Poses as each controller writes them, an LS file, and what tf2_echo prints."""
+    T = pk.se3.exp([[0.1, 0.2, 0.3, 1, 2, 3], [3, 0, 0, 0, 0, 1e-9]])
+    written = [
+        pk.poses.write(T, format).encode()
+        for format in FORMATS
+        if OF_CONTROLLERS.get(format) is not None
+    ]
+    spreadsheet = b"X [mm];Y [mm];Z [mm];A;B;C\n1,5;2;3;10;20;30\n"
+    return (*written, _TF2_ECHO, _LS, spreadsheet)
+
+
+@cache
+def piped() -> tuple[bytes, ...]:
+    """The catalogue's as ROS prints them, by gzip and in an archive; a table and a calibration."""
+    texts = urdf()[: len(catalogue.NAMES)]
+    return (
+        *(message(text, kind) for text in texts for kind in MESSAGES),
+        *(gzip.compress(message(text, "topic")) for text in texts),
+        *map(_archive, texts),
+        *dh_toml()[:2],
+        *dh_csv()[:2],
+        *calibration_yaml()[:2],
+    )
+
+
+MESSAGES = ("topic", "field", "parameter", "dump")
+"""Kinds of `message`."""
+
+
+def message(text: bytes, kind: str) -> bytes:
+    """A text as ROS prints it: of a topic, of its field, of a parameter, of all parameters."""
+    quoted = b"'" + text.replace(b"'", b"''").replace(b"\n", b"\n\n  ") + b"'"
+    return {
+        "topic": b"data: " + quoted + b"\n---\n",
+        "field": text + b"\n---\n",
+        "parameter": b"String value is: " + text,
+        "dump": b"/node:\n  ros__parameters:\n    robot_description: " + quoted + b"\n",
+    }[kind]
+
+
+def _archive(text: bytes) -> bytes:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("arm.urdf", text)
+    return out.getvalue()
 
 
 def _shorter(text: bytes) -> bytes:
@@ -112,11 +181,13 @@ def dh_csv() -> tuple[bytes, ...]:
 
 
 @cache
-def ur_yaml() -> tuple[bytes, ...]:
-    """Of a nominal arm, as the driver writes it and as ur_description reads it."""
+def calibration_yaml() -> tuple[bytes, ...]:
+    """Of nominal arms; of Universal Robots as the driver writes it and as ur_description reads it."""
     table = dh.published("ur10e")
     found = ur.from_dh(table, nominal=table, hash="calib_1234567890")
-    return tuple(yaml_io.make_text(found, rpy=rpy).encode() for rpy in ("fixed", "moving"))
+    both = [yaml_io.make_text(found, rpy=rpy) for rpy in ("fixed", "moving")]
+    others = [yaml_io.make_text(arm.calibration) for arm in known_arms(7)]
+    return tuple(text.encode() for text in (*both, *others))
 
 
 @cache

@@ -107,23 +107,33 @@ def _lines(d: Draw, lines: list[str]) -> str:
 
 
 LINKS = ("shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3")
+JOINTS = tuple(f"joint{i}" for i in range(1, 8))
 NO_NUMBERS = (
     "    x: [1, 2]", "    x: {a: 1}", "    x: *a", "    x: &a 1", "    x: !!float 1", "\tx: 1", "    ? x", "    <<: *a",
     "    x: |\n      1", "---", "...", "%YAML 9",
 )  # fmt: skip
 
 
-def ur_yaml(d: Draw) -> str:
+def calibration_yaml(d: Draw) -> str:
+    """Of Universal Robots, UFACTORY or Flexiv."""
     lines = [d.maybe("rpy: fixed\n", 0.2) + f"{d.word('kinematics')}:"]
-    for link in d.shuffled(list(LINKS)):
+    links = LINKS
+    if d.chance(0.5):
+        links = d.pick((JOINTS[:4], JOINTS[:5], JOINTS[:6], JOINTS, (*JOINTS, "link7_to_flange")))
+    for link in d.shuffled(list(links)):
         lines.append(f"  {d.text(link)}:")
         numbers = [f"    {key}: {d.number()}" for key in ("x", "y", "z", "roll", "pitch", "yaw")]
         if d.chance(d.odd / 3):
             numbers[d.below(6)] = d.pick(NO_NUMBERS)
         lines += d.shuffled(numbers)
+        if link in JOINTS and d.chance(0.3):
+            lines.append(f"    axis: {d.pick(('0 1 0', '0 0 -1', f'{d.number()} 0 1', '', 'y'))}")
     lines.append(
         d.maybe(f"  hash: {d.text('calib_1')}") if not d.chance(d.odd) else "  hash:\n    a: 1"
     )
+    if d.chance(0.2):
+        lines.append(f"calibration_metadata:\n  model_name: {d.text('Rizon4s')}")
+        lines.append(f"  joints_synced: {d.number()}")
     if d.chance(d.odd):
         return d.pick(
             (

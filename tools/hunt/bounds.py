@@ -26,7 +26,8 @@ from poekin.testing.strategies.decoding import decoders
 from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from poekin.testing.strategies.group_strategies import pose
 from tests.engine.straight_line import test_interpret
-from tests.formats import dh_product, test_dh, test_relink, test_urdf_text
+from tests.formats import dh_product, test_dh, test_urdf_text
+from tests.formats.relink import test_relinked
 from tests.model import test_chain, test_idealised, test_joint, test_robot, test_screw
 from tests.model.geometry import test_hp
 from tests.model.kinematics import test_analytic, test_compiled
@@ -221,12 +222,13 @@ BOUNDS = {
         ),
     ),
     "relinked branch": Bound(
-        st.tuples(test_relink.cases(), NUMBERS), lambda case, n: test_relink.off(case, n, rows=500)
+        st.tuples(test_relinked.cases(), NUMBERS),
+        lambda case, n: test_relinked.off(case, n, rows=500),
     ),
     "relinked frames": Bound(
-        st.tuples(test_relink.cases(), NUMBERS),
+        st.tuples(test_relinked.cases(), NUMBERS),
         lambda case, n: np.concatenate(
-            [test_relink.frames_off(one) for one in relinkings(case, n)]
+            [test_relinked.frames_off(one) for one in relinkings(case, n)]
         ),
     ),
     "maps of rates": Bound(

@@ -45,6 +45,7 @@ NEAR = {
     "formulas/structured": "own model/compiled",
     "groups/": f"groups/values groups/batches groups/objects groups/nearest groups/axis_angle {GROUPS}",
     "groups/rpy": "groups/values formats/rpy",
+    "groups/euler": "own formats/poses/numbers formats/rpy",
     "engine/array_io": f"groups/batches {CHAINS}",
     "engine/chain_kernels": CHAINS,
     "engine/derivative_kernels": "model/derivatives model/derivatives_pinocchio model/chain",

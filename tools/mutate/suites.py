@@ -61,7 +61,7 @@ _ALL_FORMULAS = (
 )
 _COMPILED_ARMS = "model/compiled formats/emit_c formats/emit_python"
 _BY_MODEL = (
-    "formats/dh formats/mjcf formats/objects formats/relink formats/rpy formats/serial formats/ur"
+    "formats/dh formats/mjcf formats/objects formats/relinked formats/rpy formats/serial formats/ur"
     " formats/urdf analysis/axes analysis/compare_extra testing/chain_strategies cli/info"
 )
 WHOLE = {

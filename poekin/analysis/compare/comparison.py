@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from ...groups.arrays import Array
 from ...results import Result
 from ..amounts import Unit, amount, joint_unit
+from .alignment.diagnosis import AlignedTo
+
+Outcome = Literal["same", "conventions", "differ"]
 
 
 @dataclass(frozen=True)
@@ -36,13 +39,18 @@ class JointComparison(Result):
         Whether the sign of q is flipped.
     limits : tuple of float
         Lower and upper limit of b, in a's zero and direction, less a's, rad or m; 0 where both are
-        unlimited.
+        unlimited, NaN where one joint slides and the other turns.
     axis_differs, zero_differs : bool
         Whether axis (or kind, or pitch) and zero position differ by more than the tolerances.
     follows_a, follows_b : str
         How the joint follows others of its model, as text; empty where it moves by itself.
     coupling_differs : bool
         Whether it follows others differently.
+    effect : float
+        Largest distance (m) by which axis, zero and direction of this joint alone move the tool,
+        over the configurations; NaN where the kinds differ.
+    limit_numbers : tuple of float
+        Lower and upper limit of b less a's, as the numbers stand, rad or m.
     """
 
     derived: ClassVar = ("differs", "unit")
@@ -63,6 +71,8 @@ class JointComparison(Result):
     follows_a: str = ""
     follows_b: str = ""
     coupling_differs: bool = False
+    effect: float = 0.0
+    limit_numbers: tuple[float, float] = (0.0, 0.0)
 
     @property
     def differs(self) -> bool:
@@ -123,26 +133,40 @@ class Comparison(Result):
 
     Attributes
     ----------
-    equal : bool
-        Whether the models agree within tolerance, up to what is a free choice (base frame, tool
-        frame, zero positions, joint directions); of a strict comparison, with those too. Limits and
-        names never decide it.
+    outcome : {"same", "conventions", "differ"}
+        Whether the models are the same in all that may not differ (`same`), are the same arm in
+        other conventions, or are other arms or have other limits.
     verdict : str
         What differs and what was aligned, in one sentence, with mm and degrees.
+    findings : tuple of str
+        Clauses of the verdict: one for each joint, frame and mistake.
+    same_arm : bool
+        Whether the models agree within tolerance, up to what is a free choice (base frame, tool
+        frame, zero positions, joint directions). Limits and names never decide it.
     joints : tuple of JointComparison
         The joints, from base to tip.
     base, tool : (4, 4) ndarray or None
         Pose of b's base frame in a's, and of a's tool frame in b's, m; None where the models could
         not be matched, and `tool` of a strict comparison.
     before, after : PoseErrors or None
-        Pose errors at the same joint values, as the models stand and under the alignment.
+        Pose errors at the same coordinates, as the models stand, and at the same joint values under
+        the alignment.
     alternatives : tuple of str
         Other explanations of the same difference.
     unmatched_joints : tuple of str or None
-        Model ("a" or "b") that has joints more, and the names of these, one or two; None where
-        both have as many, or no joints can be dropped so that the rest agree.
+        Model ("a" or "b") that has joints more, and the names of these; None where both have as
+        many, or no joints can be dropped so that the rest agree.
+    same : tuple of str
+        Conventions that may not differ.
+    aligned_to : {"agreeing axes", "all axes", "nothing"}
+        What base and tool were aligned to: the axes that agree; all of them, by robust least
+        squares, where fewer than half agree; or nothing, where neither halves the pose errors, and in
+        a strict comparison.
+    mistake : str
+        Mistake in a whole file that explains the difference ("millimetres", "degrees",
+        "mirrored"), or empty.
     strict : bool
-        Whether nothing was aligned.
+        Whether the joints stand as they are, not aligned.
     tol_position, tol_rotation : float
         Tolerances, m and rad.
     samples, seed : int
@@ -152,8 +176,12 @@ class Comparison(Result):
         in metres, 1 otherwise. All but `before` is then of both in one unit.
     """
 
-    equal: bool
+    derived: ClassVar = ("equal",)
+
+    outcome: Outcome
     verdict: str
+    findings: tuple[str, ...] = ()
+    same_arm: bool = False
     joints: tuple[JointComparison, ...] = ()
     base: Array | None = None
     tool: Array | None = None
@@ -161,6 +189,9 @@ class Comparison(Result):
     after: PoseErrors | None = None
     alternatives: tuple[str, ...] = ()
     unmatched_joints: tuple[str, ...] | None = None
+    same: tuple[str, ...]
+    aligned_to: AlignedTo = "agreeing axes"
+    mistake: str = ""
     strict: bool
     tol_position: float
     tol_rotation: float
@@ -169,23 +200,33 @@ class Comparison(Result):
     length_ratio: float = 1.0
 
     @property
+    def equal(self) -> bool:
+        """Whether the outcome is "same"."""
+        return self.outcome == "same"
+
+    @property
     def differing(self) -> tuple[JointComparison, ...]:
         """The joints of which axis, kind, zero position, direction or coupling differ."""
         return tuple(joint for joint in self.joints if joint.differs)
 
     def summary(self) -> str:
-        """Pose errors in mm and degrees, other explanations, and last the verdict.
+        """Pose errors in mm and degrees, other explanations, what differs, and last the outcome.
 
         Returns
         -------
         text : str
-            One line each.
+            One line each: one a joint, and one a frame.
         """
         errors = {"as they stand": self.before, "aligned": self.after}
         lines = [
             f"Pose error {title}: {found.summary()}" for title, found in errors.items() if found
         ]
         lines += [f"Equivalent: {text}" for text in self.alternatives]
-        verdict = self.verdict
-        lines.append(verdict[0].upper() + verdict[1:])
+        lines += [_capital(text) for text in self.findings]
+        outcome, *_ = self.verdict.partition("; ")
+        lines.append(_capital(outcome))
         return "\n".join(lines)
+
+
+def _capital(text: str) -> str:
+    return text[0].upper() + text[1:]

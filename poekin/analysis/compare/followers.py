@@ -44,8 +44,8 @@ def follows(
     Source: none, x = C q.
     """
     F = _ratios(C_a)
-    G = _ratios(C_b)
-    apart = np.abs(F - reading.directions[:, None] * G * reading.directions)
+    G = reading.directions[:, None] * _ratios(C_b) * reading.directions
+    apart = np.abs(F - G)
     slides = prismatic(a)
     small = np.where(slides, tol.position, tol.rotation)
     scales = np.where(slides, 1.0, 2 * math.pi)
@@ -67,24 +67,28 @@ def _ratios(C: Array) -> Array:
         lead = C[leaders]
         own = np.linalg.lstsq(lead.T, row, rcond=None)[0]
         rest = np.linalg.norm(row - own @ lead)
+        # beside a coordinate of its own where readings are coupled
+        F[i, leaders] = np.where(np.abs(own) > 1e-12, own, 0.0)
         if rest > 1e-9 * np.linalg.norm(row):
             leaders.append(i)
             # Its coordinate may be that of a joint off the chain, which it follows by a ratio of
             # its own.
+            beside_others = F[i].any()
             F[i, i] = 1.0
             if np.count_nonzero(row) == 1:
                 F[i, i] = abs(row.sum())
-        else:
-            F[i, leaders] = np.where(np.abs(own) > 1e-12, own, 0.0)
+            elif beside_others:
+                F[i, i] = rest
     return F
 
 
 def _words(F: Array, i: int, chain: Chain) -> str:
+    others = [j for j in np.flatnonzero(F[i]) if j != i]
+    terms = [f"{F[i, j]:.6g} × {quote(chain.joint_names[j])}" for j in others]
+    if F[i, i] == 1.0 and not terms:
+        return ""
     if F[i, i]:
-        if F[i, i] == 1.0:
-            return ""
-        return f"follows {F[i, i]:.6g} × its coordinate"
-    terms = [f"{F[i, j]:.6g} × {quote(chain.joint_names[j])}" for j in np.flatnonzero(F[i])]
+        terms.append(f"{F[i, i]:.6g} × its coordinate")
     if not terms:
         return "does not move"
     return "follows " + " + ".join(terms)

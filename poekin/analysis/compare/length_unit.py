@@ -64,6 +64,7 @@ def rescaled(chain: Chain, factor: float) -> Chain:
         home=home,
         pitches=chain.pitches * factor,
         limits=chain.limits * coordinates[:, None],
+        velocity_limits=chain.velocity_limits * coordinates,
         coupling=coupling,
         offset=chain.offset * joints,
     )

@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
 import numpy as np
 
 from ...errors import quote
-from ...groups import se3
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ..amounts import amount, joint_unit
 from ..axis_lines import Tolerances
+from .alignment.diagnosis import AlignedTo
 from .alignment.hypotheses import Hypothesis, motion_sizes, still
 from .comparison import JointComparison
+from .differences.end_zeros import end_turns
+
+
+class Said(NamedTuple):
+    """Matters said of joints beside axes, zeros and directions: the numbers of those with other
+    limits, whether other names are, and the numbers of those behind another link that differ too.
+    """
+
+    limits: frozenset[int] = frozenset()
+    names: bool = False
+    apart: frozenset[int] = frozenset()
 
 
 def joint_words(joint: JointComparison, tol: Tolerances) -> str:
@@ -24,9 +39,7 @@ def joint_words(joint: JointComparison, tol: Tolerances) -> str:
     elif joint.axis_differs:
         words.append(f"has {_axis_words(joint, tol)}")
     if joint.zero_differs:
-        words.append(
-            f"has its zero position {amount(abs(joint.zero_offset), joint.unit)} from the other model's"
-        )
+        words.append(f"has its zero {amount(abs(joint.zero_offset), joint.unit)} elsewhere")
     if joint.reversed and joint.kind_a == joint.kind_b:
         words.append("has the sign of q flipped")
     if joint.coupling_differs:
@@ -54,29 +67,87 @@ def _axis_words(joint: JointComparison, tol: Tolerances) -> str:
     return "another pitch"
 
 
-def differences(
+def joint_findings(
     joints: tuple[JointComparison, ...],
     tol: Tolerances,
+    said: Said,
     link: int = 0,
 ) -> list[str]:
     """One clause a joint that differs; where the axes behind joint `link` moved together, one for
     them.
 
-    As in "joint 4 ('elbow') has an axis that is 3.2 mm from the other model's".
+    As in "joint 4 ('elbow') has an axis that is 3.2 mm from the other model's: 4 mm at the tool".
     """
-    if link and not any(joint.coupling_differs for joint in joints):
-        first = next(joint for joint in joints[link:] if joint.axis_differs)
-        return [
+    found = []
+    if link:
+        behind = [j for j in joints[link:] if j.axis_differs and j.number not in said.apart]
+        first = behind[0]
+        only_axis = replace(first, zero_differs=False, reversed=False, coupling_differs=False)
+        found.append(
             f"the link between joint {link} ({quote(joints[link - 1].name_a)}) and joint {link + 1} "
             f"({quote(joints[link].name_a)}) differs: from joint {first.number} on the axes have moved together, and "
-            f"joint {first.number} {joint_words(first, tol)}"
-        ]
-    named = ((j, joint_words(j, tol)) for j in joints)
-    return [f"joint {j.number} ({quote(j.name_a)}) {words}" for j, words in named if words]
+            f"joint {first.number} {joint_words(only_axis, tol)}"
+        )
+    for joint in joints:
+        if link and joint.number > link and joint.number not in said.apart:
+            joint = replace(joint, axis_differs=False)
+        words = [joint_words(joint, tol)]
+        if words[0]:
+            words = [words[0] + _effect_words(joint.effect, tol)]
+        if said.limits and joint.number in said.limits:
+            words.append(limit_words(joint))
+        if said.names and joint.name_a != joint.name_b:
+            words.append(f"is called {quote(joint.name_b)} in model b")
+        clause = ", and ".join(filter(None, words))
+        if clause:
+            found.append(f"joint {joint.number} ({quote(joint.name_a)}) {clause}")
+    return found
 
 
-def frame_words(what: str, T: Array, tol: Tolerances) -> str:
-    """The motion of a frame, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
+ARTICLES = {"lower": "a", "upper": "an"}
+
+
+def limit_words(joint: JointComparison) -> str:
+    """The difference of a joint's limits: "has its upper limit 10° lower in model b"."""
+    sides = []
+    for which, change, ahead in zip(
+        ("lower", "upper"),
+        joint.limits,
+        (math.inf, -math.inf),
+        strict=True,
+    ):
+        if math.isinf(change):
+            model = "b" if change == ahead else "a"
+            sides.append(f"{ARTICLES[which]} {which} limit in model {model} alone")
+        elif change:
+            way = "higher" if change > 0 else "lower"
+            sides.append(f"its {which} limit {amount(abs(change), joint.unit)} {way} in model b")
+    return f"has {' and '.join(sides)}"
+
+
+def _effect_words(effect: float, tol: Tolerances) -> str:
+    """The largest motion of the tool that a difference makes, or empty: ": 64 mm at the tool"."""
+    if not effect > tol.position:
+        return ""
+    return f": {_rounded(effect)} at the tool"
+
+
+def _rounded(length: float) -> str:
+    """A length in mm to whole mm, or two digits where it is small."""
+    if length >= 0.01:
+        return f"{1e3 * length:.0f} mm"
+    return amount(length, "m", 2)
+
+
+def frame_words(
+    what: str,
+    T: Array,
+    tol: Tolerances,
+    effect: float = 0.0,
+) -> str:
+    """The motion of a frame, or empty: "the base frame is moved by 12 mm and turned by 3°", and
+    what that makes at the tool.
+    """
     if still(T, tol):
         return ""
     distance, angle = map(float, motion_sizes(T))
@@ -85,18 +156,40 @@ def frame_words(what: str, T: Array, tol: Tolerances) -> str:
         said.append(f"moved by {amount(distance, 'm')}")
     if angle > tol.rotation:
         said.append(f"turned by {amount(angle, 'rad')}")
-    return f"the {what} frame is {' and '.join(said)}"
+    return f"the {what} frame is {' and '.join(said)}{_effect_words(effect, tol)}"
 
 
 def unit_words(ratio: float) -> str:
     """The sentence on lengths of one model that are 1000 times the other's: ratio is b's by a's."""
-    larger = "b"
-    smaller = "a"
-    if ratio < 1:
-        larger = "a"
-        smaller = "b"
-        ratio = 1 / ratio
-    return f"lengths of model {larger} are {ratio:.4g} times those of model {smaller} (millimetres against metres?)"
+    larger = "ab"[ratio > 1]
+    smaller = "ab"[ratio < 1]
+    times = max(ratio, 1 / ratio)
+    return f"lengths of model {larger} are {times:.4g} times those of model {smaller} (millimetres against metres?)"
+
+
+def count_words(count: int) -> str:
+    """A number of joints: "one joint", "3 joints"."""
+    return {1: "one joint", 2: "two joints"}.get(count, f"{count} joints")
+
+
+def alignment_words(aligned_to: AlignedTo) -> str:
+    """The way in which base and tool were aligned, ahead of what moved."""
+    if aligned_to == "all axes":
+        return "aligned to all axes by least squares, as fewer than half agree"
+    return "aligned"
+
+
+def mirror_words(axis: str) -> str:
+    """The sentence on a model that mirrors the other one."""
+    return f"model b is a mirrored: {axis} of its base is -{axis} of a's (left-handed coordinates?)"
+
+
+ZERO_DEGREES = "zeros differ as if one model had degrees for radians (degrees in rpy?)"
+
+
+def degree_words(model: str) -> str:
+    """The sentence on a model with degrees where radians are meant."""
+    return f"links of model {model} turn by as many radians as the other's by degrees (degrees in rpy?)"
 
 
 def equivalents(
@@ -110,21 +203,12 @@ def equivalents(
     may be implicated.
     """
     said = []
-    if len(a.screws):
-        last = se3.adjoint(se3.inverse(b.home)) @ b.screws[-1]
-        ends = (
-            ("base", first.base, a.screws[0] * first.directions[0], 1),
-            ("tool", first.tool, last, len(a.screws)),
+    for frame, k, z in end_turns(a, b, first, tol):
+        far = amount(z, joint_unit(b.kinds[k]))
+        said.append(
+            f"the {frame} moved by {far} along or about the axis of joint {k + 1} ({quote(a.joint_names[k])}) is the "
+            f"same as a zero offset of {far} of that joint"
         )
-        for what, T, S, number in ends:
-            size = _about(T, S, tol)
-            if size is not None and not still(T, tol):
-                far = amount(size, joint_unit(b.kinds[number - 1]))
-                name = a.joint_names[number - 1]
-                said.append(
-                    f"the {what} moved by {far} along or about the axis of joint {number} ({quote(name)}) is the same "
-                    f"as a zero offset of {far} of that joint"
-                )
     for other in others:
         (k,) = np.flatnonzero(other.implicated)
         change = "the other direction"
@@ -139,16 +223,3 @@ def equivalents(
             "aligned to that, explains it as well"
         )
     return said
-
-
-def _about(T: Array, S: Array, tol: Tolerances) -> float | None:
-    """z with T = e^{S z} within tolerance, or None."""
-    xi = se3.log(T)
-    part = slice(0, 3)
-    if not S[:3].any():
-        part = slice(3, 6)
-    z = float(xi[part] @ S[part])
-    for value in (z, -z):  # at half a turn the logarithm may come with either sign
-        if still(se3.inverse(se3.exp(S * value)) @ T, tol):
-            return value
-    return None

@@ -29,16 +29,17 @@ def droppable(
     """The joints of the longer of two chains at rest without which both agree, and the positions at
     which they are then held.
 
-    Of several choices the one that leaves least to align. None where there are none, or where the
-    chains differ by more than `MOST` joints.
+    Of several choices the one that leaves least to align. None where there are none. Of more than
+    `MOST` joints those at the ends alone are tried, as base and tool of another length leave them.
     """
     short, long = sorted((a, b), key=lambda chain: len(chain.screws))
     more = len(long.screws) - len(short.screws)
-    if more > MOST:
-        return None
     fitting = []
-    for ks in combinations(range(len(long.screws)), more):
-        for held in _positions(long, short, ks, tol):
+    for ks in _choices(len(long.screws), more):
+        held_at = _positions(long, short, ks, tol)
+        if more > MOST:
+            held_at = iter([(0.0,) * more])
+        for held in held_at:
             rest = without(long, ks, held)
             if not _may_agree(rest, short, tol):
                 continue
@@ -52,6 +53,16 @@ def droppable(
         return None
     *_, ks, held = min(fitting)
     return ks, np.array(held)
+
+
+def _choices(n: int, more: int) -> Iterator[tuple[int, ...]]:
+    """The joints of n that may be dropped, so many at once."""
+    if more <= MOST:
+        yield from combinations(range(n), more)
+        return
+    for front in range(more, -1, -1):
+        behind = range(n - (more - front), n)
+        yield (*range(front), *behind)
 
 
 def without(

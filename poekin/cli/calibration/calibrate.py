@@ -11,20 +11,22 @@ import typer
 from typer import Argument, Option
 
 from ...errors import InputError, UnknownName, quote
-from ...formats import dh
 from ...formats.dh.table import CONVENTIONS
-from ...formats.text.atomic_write import write_whole
+from ...model.chain import Chain
 from ...model.robot import Robot
 from ...solve.calibration.calibrate import calibrate
 from ...solve.calibration.calibration import Calibration
-from ...solve.calibration.report import changes, html_report
+from ...solve.calibration.exact.from_fk_result import FromFk
+from ...solve.calibration.report import changes
 from ...solve.calibration.report.summary import MOST_OUTLIERS
 from ..array_files import check_apart, check_place
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
-from ..output import Progress, as_json, complain, name, path_text, say, table
+from ..output import Progress, as_json, complain, name, say, table
+from . import exact as exact_pairs
 from . import measured
 from .measured import Measured, MeasurementOptions
+from .outputs import ENDINGS, Outputs, say_written
 
 Texts = list[str] | None
 Number = float | None
@@ -94,6 +96,22 @@ Ignore = Annotated[
     Texts,
     Option("--ignore", metavar="COLUMN", help="A column to pass over; may be repeated."),
 ]
+Format = Annotated[
+    str | None,
+    Option(
+        "--format",
+        metavar="FORMAT",
+        help="What the columns of poses are: abc, wpr, ur, ..., as in ik (default: as their names say).",
+    ),
+]
+Mm = Annotated[
+    bool | None,
+    Option("--mm/--m", help="Lengths in the files, of --point and --centre in mm."),
+]
+Deg = Annotated[
+    bool | None,
+    Option("--deg/--rad", help="Angles in the files in degrees: joints, and those of --format."),
+]
 Output = Annotated[
     list[Path] | None,
     Option(
@@ -103,6 +121,10 @@ Output = Annotated[
     ),
 ]
 Convention = Annotated[str, Option("--dh", help="The convention of a .csv: standard or modified.")]
+Exact = Annotated[
+    bool,
+    Option("--exact", help="The poses are a controller's own forward kinematics, without noise."),
+]
 Report = Annotated[Path | None, Option("--report", help="A page with pictures: an .html file.")]
 
 
@@ -126,20 +148,24 @@ def command(
     folds: Folds = 5,
     seed: Seed = 0,
     ignore: Ignore = None,
+    format: Format = None,
+    mm: Mm = None,
+    deg: Deg = None,
     output: Output = None,
     convention: Convention = "standard",
     report: Report = None,
+    exact: Exact = False,
     json: Json = False,
 ) -> None:
     """The axes and home pose of an arm as measurements say they are. Exit code 0 done, 1 not
     converged, 2 error.
     """
-    outputs = list(output or ())
-    for place in outputs:
-        check_place(place, _ENDINGS)
+    outputs = Outputs(list(output or ()), convention, report)
+    for place in outputs.paths:
+        check_place(place, ENDINGS)
     if report:
         check_place(report, (".html", ".htm"))
-    check_apart([*outputs, report], model=file, measurements=files)
+    check_apart([*outputs.paths, report], model=file, measurements=files)
     if convention not in CONVENTIONS:
         raise InputError(f"--dh: expected standard or modified, got {quote(convention)}")
     robot = model(file)
@@ -152,6 +178,7 @@ def command(
         sigma_angle,
         sigma_length,
         ignore or (),
+        measured.convention(format, mm, deg),
     )
     options: dict[str, Any] = {
         "parameters": _listed(parameters) or ("screws", "home"),
@@ -162,27 +189,43 @@ def command(
         "folds": folds,
         "seed": seed,
     }
+    if exact:
+        exact_pairs.check(said, options)
+    of_fk: FromFk | None = None
     try:
         given = measured.read(files, chain, said)
-        with Progress("calibrating") as progress:
-            found = calibrate(
-                chain,
-                given.q,
-                given.sets,
-                progress=lambda done, total: progress(done, total, "folds done"),
-                **options,
-            )
+        if exact:
+            of_fk = exact_pairs.fit(chain, given)
+            found = of_fk.calibration
+        else:
+            found = _calibrated(chain, given, options)
     except (InputError, UnknownName) as fault:
         raise type(fault)(_as_options(str(fault))) from fault
-    _write(found, robot, outputs, convention, report, given)
-    written = [str(path) for path in (*outputs, report) if path]
-    if json:
-        print(as_json(_document(found, robot, given, written)))
-    else:
-        _show(found, robot, given, written)
+    try:
+        outputs.write(found, robot, given.sources)
+    finally:  # no file that cannot be written costs the result
+        if json:
+            more = {} if of_fk is None else {"exact": of_fk.to_dict()}
+            print(as_json(_document(found, robot, given, outputs.written) | more))
+        else:
+            _show(found, robot, given, outputs)
+            if of_fk is not None:
+                say(f"\n{of_fk}")
     if not found.success:
         complain("the search did not converge: this is the best that was found")
     raise typer.Exit(0 if found.success else NOT_CONVERGED)
+
+
+def _calibrated(chain: Chain, given: Measured, options: dict[str, Any]) -> Calibration:
+    """The calibration from measurements, with progress."""
+    with Progress("calibrating") as progress:
+        return calibrate(
+            chain,
+            given.q,
+            given.sets,
+            progress=lambda done, total: progress(done, total, "folds done"),
+            **options,
+        )
 
 
 def _prior(angle: float | None, length: float | None) -> dict[str, float] | None:
@@ -191,9 +234,9 @@ def _prior(angle: float | None, length: float | None) -> dict[str, float] | None
     return given or None
 
 
-_ENDINGS: tuple[str, ...] = (".toml", ".urdf", ".csv")
 _OPTIONS = {
     "on_rank_deficiency='fix'": "--on-rank-deficiency fix",
+    "with the readings coupled, '": "with --coupling '",
     "covariance=": "--sigma-angle and --sigma-length",
     "folds=0": "--folds 0",
     "parameters=": "--parameters",
@@ -224,36 +267,6 @@ def _listed(words: Sequence[str] | None) -> list[str] | None:
     return None if words is None else [part.strip() for word in words for part in word.split(",")]
 
 
-def _write(
-    found: Calibration,
-    robot: Robot,
-    outputs: Sequence[Path],
-    convention: str,
-    report: Path | None,
-    given: Measured,
-) -> None:
-    """Each file, whole; first the one that keeps everything, should another one fail for what is in
-    it.
-    """
-    for path in outputs:
-        if path.suffix.lower() == ".toml":
-            found.save(path)
-    texts: list[tuple[Path, str]] = []
-    for path in outputs:
-        if path.suffix.lower() == ".urdf":
-            texts.append((path, found.to_urdf(robot)))
-        elif path.suffix.lower() == ".csv":
-            made = found.to_dh(convention)  # type: ignore[arg-type]  # refused there with the choices
-            texts.append((path, dh.table_io.make_text(made.table, ".csv")))
-            for words in made.warnings:
-                complain(f"warning: {words}")
-    if report is not None:
-        title = f"Calibration of {robot.name}: {found.chain.base} to {found.chain.tip}"
-        texts.append((report, html_report.html(found, title, given.sources)))
-    for path, text in texts:
-        write_whole(path, text.encode())
-
-
 def _document(
     found: Calibration,
     robot: Robot,
@@ -265,7 +278,7 @@ def _document(
     return named | {"outliers": outliers, "written": written}
 
 
-def _show(found: Calibration, robot: Robot, given: Measured, written: Sequence[str]) -> None:
+def _show(found: Calibration, robot: Robot, given: Measured, outputs: Outputs) -> None:
     say(f"{name(robot.name)}, {name(found.chain.base)} → {name(found.chain.tip)}")
     say(changes.sentence(found))
     say(found.summary())
@@ -275,8 +288,7 @@ def _show(found: Calibration, robot: Robot, given: Measured, written: Sequence[s
         table(changes.HEADS, [changes.row(j) for j in moved])
     if found.outliers:
         say(f"\nOutliers: {_locations([given.sources[o.row] for o in found.outliers])}")
-    for path in written:
-        say(f"written: {path_text(path)}")
+    say_written(outputs.written, robot)
 
 
 def _locations(sources: Sequence[str]) -> str:

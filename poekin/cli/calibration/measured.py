@@ -12,6 +12,7 @@ from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...solve.calibration.measurements import data
+from ...solve.calibration.measurements.header import SI, Convention
 from ...solve.calibration.measurements.measurement import Measurement
 from ..kinematics import poses
 from ..output import Progress, path_text
@@ -27,6 +28,7 @@ class MeasurementOptions(NamedTuple):
     sigma_angle: float | None
     sigma_length: float | None
     ignore: Sequence[str]
+    convention: Convention = SI
 
 
 class Measured(NamedTuple):
@@ -41,6 +43,14 @@ class Measured(NamedTuple):
 
 _TAKES = {"points": ("point", "frame"), "distances": ("point", "centre")}
 """The options that say something of measurements of a kind."""
+
+
+def convention(format: str | None, mm: bool | None, deg: bool | None) -> Convention:
+    """Convention that --format, --mm and --deg name. Raises: InputError."""
+    try:
+        return Convention.of(format, mm, deg)
+    except InputError as fault:
+        raise InputError(f"--{fault}") from fault
 
 
 def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Measured:
@@ -59,7 +69,14 @@ def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Mea
     for path, kind in zip(paths, kinds, strict=True):
         with Progress(f"reading {path_text(path)}") as progress:
             tables.append(
-                data.read_table(path, chain, kind=kind, ignore=options.ignore, progress=progress)
+                data.read_table(
+                    path,
+                    chain,
+                    kind=kind,
+                    ignore=options.ignore,
+                    progress=progress,
+                    convention=options.convention,
+                )
             )
     made = [kind or table.layout.kinds[0] for kind, table in zip(kinds, tables, strict=True)]
     _check_fit(options, made)
@@ -112,13 +129,13 @@ def _known(options: MeasurementOptions, kind: str, points: int) -> dict[str, Any
     if options.sigma_length is not None:
         known["covariance"] = _covariance(options.sigma_angle, options.sigma_length, kind, points)
     if options.point and "point" in takes:
-        positions = np.array([vector(text, "--point") for text in options.point])
+        positions = np.array([_point(text, "--point", options) for text in options.point])
         # of several, distances are to the first
         known |= {"points": positions} if kind == "points" else {"point": positions[0]}
     if options.frame is not None and "frame" in takes:
         known["frame"] = options.frame
     if options.centre is not None and "centre" in takes:
-        known["centre"] = vector(options.centre, "--centre")
+        known["centre"] = _point(options.centre, "--centre", options)
     return known
 
 
@@ -131,6 +148,12 @@ def _covariance(angle: float | None, length: float, kind: str, points: int) -> A
     else:
         deviations = np.full(3 * points, length)
     return np.diag(np.square(deviations))
+
+
+def _point(text: str, option: str, options: MeasurementOptions) -> Array:
+    """A point, in m, of an option that is in the unit of lengths."""
+    p = vector(text, option)
+    return p / 1000.0 if options.convention.mm else p
 
 
 def vector(text: str, option: str) -> Array:

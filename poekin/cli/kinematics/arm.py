@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -15,11 +15,15 @@ from ...errors import InputError, quote
 from ...formats.text import csv_rows
 from ...model.chain import Chain
 from .. import array_files
+from ..formats.units import SI, Units, beyond_limits
 from ..model import model, refuse_options
-from ..output import Progress, as_json, heading, matrix, name, number, path_text, say
+from ..output import Progress, as_json, complain, heading, matrix, name, number, path_text, say
 from . import poses
 
-FILE_HELP = "A URDF, MJCF, DH table or calibration file, a built-in name (panda), or erd:NAME."
+FILE_HELP = (
+    "A URDF, MJCF, DH table or calibration file, a pipe (- is standard input), a built-in name "
+    "(panda), or erd:NAME; poekin list names them."
+)
 File = Annotated[str, Argument(metavar="FILE", help=FILE_HELP)]
 Tip = Annotated[
     str | None,
@@ -53,12 +57,15 @@ ROWS_AT_ONCE = 20_000
 
 @dataclass(frozen=True)
 class ChainArguments:
-    """Chain of a file and configurations (N, m); single where the user gave one Q."""
+    """Chain of a file and configurations (N, m) in rad and m; single where the user gave one Q; the
+    units that they are shown in.
+    """
 
     robot: str
     chain: Chain
     q: np.ndarray
     single: bool
+    units: Units = SI
 
 
 def take(
@@ -69,28 +76,42 @@ def take(
     given: str | None,
     *,
     many: bool = True,
+    units: Units | None = None,
 ) -> ChainArguments:
     """Chain and configurations that a command line names.
 
-    Parameters: many, whether the command has --input.
+    Parameters: many, whether the command has --input; units, of the configurations, of a command
+    that has --mm and --deg, and says which configurations are beyond the limits.
 
     Raises: what `model`, `Robot.chain` and reading do.
     """
     words = list(q or ())
     refuse_options(words, ("--tip", "--base", "--frame", "--input", "--output", "--json"))
-    values = poses.numbers(words, "coordinate", " (rad or m)")
+    values = poses.numbers(words, "coordinate")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     if given is None:
         poses.check_count(values, chain, remedy="; or --input with a file" * many)
-        return ChainArguments(robot.name, chain, values[None], True)
+        return _in_si(ChainArguments(robot.name, chain, values[None], True), units)
     if words:
         raise InputError(
             f"either coordinates or --input expected, got both ({quote(words[0])} and {quote(given)})"
         )
     with Progress(f"reading {array_files.called(given)}") as progress:
-        rows = array_files.read_configurations(given, chain.q_names, progress)
-    return ChainArguments(robot.name, chain, rows, False)
+        columns = (units or SI).columns(chain)
+        rows = array_files.read_configurations(given, columns, progress)
+    return _in_si(ChainArguments(robot.name, chain, rows, False), units)
+
+
+def _in_si(arm: ChainArguments, units: Units | None) -> ChainArguments:
+    """Configurations in rad and m; those beyond the limits are told on stderr."""
+    if units is None:
+        return arm
+    q = units.to_si(arm.q, arm.chain)
+    sentence = beyond_limits(arm.chain, q, units)
+    if sentence:
+        complain(f"warning: {sentence}")
+    return replace(arm, q=q, units=units)
 
 
 def compute(
@@ -121,6 +142,10 @@ class Results:
     columns: Sequence[str] = ()
     extra: Mapping[str, object] = field(default_factory=dict)
 
+    def array(self) -> np.ndarray:
+        """Array of a .npy file."""
+        return self.values
+
     def csv(self) -> str:
         """CSV with a line for each matrix."""
         columns = self.columns or [""]
@@ -140,7 +165,7 @@ class Results:
     def show(self, arm: ChainArguments) -> None:
         """Print the matrix of a single configuration."""
         say(f"{self.title}, at")
-        show_coordinates(arm.chain, arm.q[0])
+        show_coordinates(arm.chain, arm.q[0], arm.units)
         say()
         if self.columns:
             matrix(self.values[0], self.rows, self.columns)
@@ -148,10 +173,13 @@ class Results:
             matrix(self.values[0])
 
 
-def show_coordinates(chain: Chain, q: np.ndarray) -> None:
-    """Print a line for each coordinate."""
-    for coordinate, value in zip(chain.q_names, q, strict=True):
-        say(f"  {name(coordinate)} = {number(value, 9)}")
+def show_coordinates(chain: Chain, q: np.ndarray, units: Units = SI) -> None:
+    """Print a line for each coordinate, with its unit where one was said."""
+    said = units.said()
+    values = units.from_si(q, chain)
+    for coordinate, value, unit in zip(chain.q_names, values, units.of(chain), strict=True):
+        end = f" {unit}" if unit in said else ""
+        say(f"  {name(coordinate)} = {number(value, 9)}{end}")
 
 
 def give(arm: ChainArguments, results: Results, output: Path | None, json: bool) -> None:
@@ -160,7 +188,7 @@ def give(arm: ChainArguments, results: Results, output: Path | None, json: bool)
         array_files.write_result(
             output,
             results.csv,
-            results.values,
+            results.array(),
             lambda: results.json(arm, False),
         )
         count = len(results.values)

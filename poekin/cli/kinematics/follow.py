@@ -17,9 +17,10 @@ from ...solve.ik.task import TaskName
 from ...solve.path.follow import follow
 from ...solve.path.path_result import PathResult
 from .. import array_files
+from ..formats.units import Deg, Mm, Units
 from ..model import model
 from ..output import Progress, as_json, complain, heading, path_text, say
-from . import poses
+from . import fastest_files, poses
 from .arm import Base, File, Json, Tip
 
 Start = Annotated[
@@ -34,16 +35,36 @@ Duration = Annotated[
     float | None,
     Option("--duration", help="Seconds from the first pose to the last, evenly."),
 ]
+Fastest = Annotated[
+    bool,
+    Option(
+        "--fastest",
+        help="As fast as --speed and --acceleration allow: times and velocities for a controller.",
+    ),
+]
 Speed = Annotated[
     str | None,
-    Option("--speed", metavar="V[,...]", help="Limits of speed, with --duration."),
+    Option(
+        "--speed",
+        metavar="V[,...]",
+        help="Limits of speed, with --duration or --fastest (default there: the model's).",
+    ),
 ]
 Acceleration = Annotated[
     str | None,
     Option(
         "--acceleration",
         metavar="A[,...]",
-        help="Limits of acceleration, with --duration.",
+        help="Limits of acceleration, with --duration or --fastest.",
+    ),
+]
+Output = Annotated[
+    Path | None,
+    Option(
+        "--output",
+        "-o",
+        help="Where the joints go: a .csv, .npy or .json file; with --fastest .csv, .yaml or .json "
+        "(JointTrajectory of ROS), or .script (URScript).",
     ),
 ]
 Step = Annotated[
@@ -66,52 +87,69 @@ def command(
     given: poses.Input = None,
     format: poses.Format = None,
     quaternion: poses.Quaternion = None,
+    mm: Mm = None,
+    deg: Deg = None,
     q0: Start = None,
     duration: Duration = None,
+    fastest: Fastest = False,
     speed: Speed = None,
     acceleration: Acceleration = None,
     max_step: Step = 0.1,
     task: poses.Task = "pose",
     no_limits: poses.NoLimits = False,
     seed: poses.Seed = 0,
-    output: poses.Output = None,
+    output: Output = None,
     plot: Plot = None,
     json: Json = False,
 ) -> None:
     """Joints along the path of poses in --input, without a jump where there is such a way.
 
     Exit code 0: followed, within the limits; 1: some pose is not reached, the branch changes, or a
-    limit of speed or acceleration is exceeded; 2: an error.
+    limit is exceeded; 2: an error. With --fastest nothing is written where the path breaks.
     """
-    array_files.check_writable(output)
+    if fastest:
+        fastest_files.check(output, duration, acceleration)
+    else:
+        fastest_files.check_unasked(output)
+        array_files.check_writable(output)
     if plot is not None:
         array_files.check_place(plot, (".svg",))
     if given is None:
         raise InputError("--input: a file of poses expected, got none")
     array_files.check_apart([output, plot], model=file, poses=given)
-    if duration is None and (speed is not None or acceleration is not None):
-        raise InputError("--speed and --acceleration: expected together with --duration, got none")
-    T = poses.read(None, given, format, quaternion)
+    untimed = duration is None and not fastest
+    if untimed and (speed is not None or acceleration is not None):
+        raise InputError(
+            "--speed and --acceleration: expected together with --duration or --fastest, got none"
+        )
+    units = Units(mm, deg)
+    T = poses.read(None, given, format, quaternion, units)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
+    limit_v = poses.for_each(speed, chain, "--speed", units)
+    limit_a = poses.for_each(acceleration, chain, "--acceleration", units)
+    timed = not fastest
     with Progress("following") as progress:
         path = follow(
             chain,
             T,
-            q0=poses.coordinates(q0, chain, "--q0"),
+            q0=poses.coordinates(q0, chain, "--q0", units),
             times=_times(duration, len(T)),
-            speed=poses.for_each(speed, chain, "--speed"),
+            speed=limit_v if timed else None,
             max_step=max_step,
             task=cast(TaskName, task),
             limits=not no_limits,
-            acceleration=poses.for_each(acceleration, chain, "--acceleration"),
+            acceleration=limit_a if timed else None,
             seed=seed,
             progress=progress,
         )
+    if fastest:
+        report = heading(robot.name, chain) | _report(path)
+        raise Exit(fastest_files.give(path, limit_a, limit_v, output, plot, json, report))
     svg = ""
     if plot is not None:
         svg = path.plot()
-    _give(robot.name, chain, path, output, json)
+    _give(robot.name, chain, path, output, json, units)
     if plot is not None:
         write_whole(plot, svg.encode())
         if not json:
@@ -125,20 +163,29 @@ def _times(duration: float | None, count: int) -> np.ndarray | None:
     return np.linspace(0, positive(duration, "--duration"), count)
 
 
-def _give(robot: str, chain: Chain, path: PathResult, output: Path | None, json: bool) -> None:
+def _give(
+    robot: str,
+    chain: Chain,
+    path: PathResult,
+    output: Path | None,
+    json: bool,
+    units: Units,
+) -> None:
+    q = units.from_si(path.q, chain)
+
     def document() -> str:
         return as_json(heading(robot, chain) | _report(path))
 
     def sheet() -> str:
         if path.times is None:
-            return csv_rows.text(chain.q_names, path.q)
+            return csv_rows.text(units.header(chain), q)
         return csv_rows.text(
-            [array_files.TIME, *chain.q_names],
-            np.column_stack([path.times, path.q]),
+            [array_files.TIME, *units.header(chain)],
+            np.column_stack([path.times, q]),
         )
 
     if output is not None:
-        array_files.write_result(output, sheet, path.q, document)
+        array_files.write_result(output, sheet, q, document)
         if json:
             report = _report(path)
             del report["q"]

@@ -14,6 +14,7 @@ from ...solve.ik.ik import ik
 from ...solve.ik.solution import Solution
 from ...solve.ik.task import TaskName
 from .. import array_files
+from ..formats.units import Deg, Mm, Units
 from ..model import model
 from ..output import Progress, as_json, complain, heading, name, path_text, say
 from . import poses
@@ -25,7 +26,7 @@ Start = Annotated[
     Option(
         "--q0",
         metavar="Q,...",
-        help="Where the search begins (commas between); default: random.",
+        help="Where the search begins (commas between); default: near the middle of the limits.",
     ),
 ]
 Nearest = Annotated[
@@ -46,6 +47,8 @@ def command(
     given: poses.Input = None,
     format: poses.Format = None,
     quaternion: poses.Quaternion = None,
+    mm: Mm = None,
+    deg: Deg = None,
     q0: Start = None,
     nearest_to: Nearest = None,
     task: poses.Task = "pose",
@@ -59,11 +62,12 @@ def command(
     """
     array_files.check_writable(output)
     array_files.check_apart([output], model=file, poses=given)
-    T = poses.read(words, given, format, quaternion)
+    units = Units(mm, deg)
+    T = poses.read(words, given, format, quaternion, units)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
-    start = poses.coordinates(q0, chain, "--q0")
-    near = poses.coordinates(nearest_to, chain, "--nearest-to")
+    start = poses.coordinates(q0, chain, "--q0", units)
+    near = poses.coordinates(nearest_to, chain, "--nearest-to", units)
     with Progress("solving") as progress:
         found = ik(
             chain,
@@ -75,7 +79,7 @@ def command(
             seed=seed,
             progress=progress,
         )
-    _give(robot.name, chain, found, given is None, output, json)
+    _give(robot.name, chain, found, given is None, output, json, units)
     raise Exit(0 if found.success.all() else poses.UNSOLVED)
 
 
@@ -86,8 +90,10 @@ def _give(
     single: bool,
     output: Path | None,
     json: bool,
+    units: Units,
 ) -> None:
     count = len(found.q)
+    q = units.from_si(found.q, chain)
     unsolved = np.flatnonzero(~found.success).tolist()
     solved = count - len(unsolved)
     named = unsolved
@@ -99,11 +105,11 @@ def _give(
         return as_json(heading(robot, chain) | _report(found, reasons, single and output is None))
 
     def sheet() -> str:
-        rows = np.column_stack([found.q, found.success, found.position_error, found.rotation_error])
-        return csv_rows.text([*chain.q_names, *array_files.ERRORS], rows)
+        rows = np.column_stack([q, found.success, found.position_error, found.rotation_error])
+        return csv_rows.text([*units.header(chain), *array_files.ERRORS], rows)
 
     if output is not None:
-        array_files.write_result(output, sheet, found.q, document)
+        array_files.write_result(output, sheet, q, document)
         if json:
             print(as_json({"written": str(output), "poses": count, "solved": solved}))
         else:
@@ -111,7 +117,7 @@ def _give(
     elif json:
         print(document())
     elif single:
-        _show(chain, found)
+        _show(chain, found, units)
     else:
         print(sheet(), end="")
     if unsolved and not json:
@@ -125,7 +131,7 @@ def _report(found: Solution, reasons: dict[int, str], single: bool) -> dict[str,
     return parts
 
 
-def _show(chain: Chain, found: Solution) -> None:
+def _show(chain: Chain, found: Solution, units: Units) -> None:
     words = "not solved"
     if found.success[0]:
         words = (
@@ -133,7 +139,7 @@ def _show(chain: Chain, found: Solution) -> None:
             f" and {np.degrees(found.rotation_error[0]):.2g}° off"
         )
     say(f"{name(chain.tip)} in {name(chain.base)}: {words}")
-    show_coordinates(chain, found.q[0])
+    show_coordinates(chain, found.q[0], units)
 
 
 def _complain(reasons: dict[int, str], count: int, single: bool) -> None:

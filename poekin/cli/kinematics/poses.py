@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
@@ -10,29 +11,34 @@ import numpy as np
 from typer import Argument, Option
 
 from ...errors import InputError, quote
-from ...formats.text import pose_rows
+from ...formats.poses import pose_rows
+from ...formats.poses.layout import NAMED, Layout, layout
+from ...formats.poses.read import pose_columns, read_file, read_text
 from ...formats.text.numbers import real
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from .. import array_files
+from ..formats.units import SI, Units
 from ..model import refuse_options
 from ..output import Progress, name
 
 FORMAT_HELP = (
-    "The numbers of a pose: 12 (the first three rows of the 4x4 matrix, row by row: T00 T01 T02 T03 T10 ..., m), 16"
-    " (all four rows, as fk writes them) or 7 (x y z in m and a unit quaternion, with --quaternion)."
+    "The numbers of a pose, never guessed: matrix (12 or 16, row by row: T00 T01 T02 T03 T10 ..., m), quat (x y z in m"
+    " and a unit quaternion, with --quaternion), ros (x y z qx qy qz qw), rotvec or ur (x y z rx ry rz, m and rad), rpy"
+    " (roll pitch yaw, m and rad); in mm and degrees abc or kuka, wpr or fanuc, abb, staubli, yaskawa, mitsubishi,"
+    " kawasaki, doosan. A pose may be text as the controller writes it."
 )
 Poses = Annotated[
     list[str] | None,
     Argument(metavar="POSE...", help="One pose, in the numbers of --format."),
 ]
-Format = Annotated[str | None, Option("--format", metavar="12|16|7", help=FORMAT_HELP)]
+Format = Annotated[str | None, Option("--format", metavar="FORMAT", help=FORMAT_HELP)]
 Quaternion = Annotated[
     str | None,
     Option(
         "--quaternion",
         metavar="wxyz|xyzw",
-        help="The order of the quaternion in --format 7; never guessed.",
+        help="The order of the quaternion in --format quat; never guessed.",
     ),
 ]
 Input = Annotated[
@@ -40,7 +46,7 @@ Input = Annotated[
     Option(
         "--input",
         metavar="FILE",
-        help="Poses, one a row: a .csv or .npy file, or - (CSV on stdin).",
+        help="Poses, one a row: CSV, what a controller or ROS prints, .npy, or - (stdin).",
     ),
 ]
 Output = Annotated[
@@ -67,7 +73,7 @@ NoLimits = Annotated[bool, Option("--no-limits", help="Let the joints leave thei
 
 OPTIONS = (
     *("--tip", "--base", "--input", "--format", "--quaternion", "--q0", "--nearest-to", "--task"),
-    *("--no-limits", "--output", "--json", "--seed"),
+    *("--mm", "--m", "--deg", "--rad", "--no-limits", "--output", "--json", "--seed"),
 )
 UNSOLVED = 1
 """The exit code where not all is solved."""
@@ -78,54 +84,65 @@ def read(
     given: str | None,
     format: str | None,
     quaternion: str | None,
+    units: Units = SI,
 ) -> Array:
     """The poses (N, 4, 4) that a command line names; NaN where a row is not finite. Raises:
     InputError, PoseError, FileError, with file and line.
     """
     refuse_options(words or (), OPTIONS)
-    if format is None:
-        raise InputError(
-            "--format: expected 12, 16 or 7, the numbers of a pose, and the format is never guessed"
-        )
-    try:
-        names = pose_rows.columns(format, quaternion)
-    except InputError as fault:
-        raise InputError(f"--{fault}") from fault
+    chosen = pose_layout(format, quaternion, units)
     if given is not None:
         if words:
             raise InputError(
                 f"either a pose or --input expected, got both ({quote(words[0])} and {quote(given)})"
             )
-        return _read_file(given, names, format, quaternion)
-    if len(words or ()) != len(names):
-        asked = f"{len(names)} numbers expected ({' '.join(names)})"
-        raise InputError(f"a pose: {asked}, got {len(words or ())}; or --input with a file")
-    row = numbers(words or (), "the pose's number")
-    return pose_rows.to_poses(row[None], format, quaternion, lambda _: "the pose")
+        return _read_file(given, chosen, units)
+    T = read_text(" ".join(words or ()), chosen, units.said(), "the pose")
+    if len(T) != 1:
+        raise InputError(f"one pose expected, got {len(T)}; or --input with a file")
+    return T
 
 
-def _read_file(given: str, names: Sequence[str], format: str, quaternion: str | None) -> Array:
+def pose_layout(format: str | None, quaternion: str | None, units: Units) -> Layout:
+    """Layout that --format, --quaternion, --mm and --deg name. Raises: InputError."""
+    if format is None:
+        raise InputError(
+            f"--format: expected one of {NAMED}; the format of a pose is never guessed"
+        )
+    try:
+        return layout(format, quaternion, mm=units.mm, deg=units.deg)
+    except InputError as fault:
+        raise InputError(f"--{fault}") from fault
+
+
+def _read_file(given: str, chosen: Layout, units: Units) -> Array:
     place = array_files.called(given)
+    if Path(given).suffix.lower() != ".npy":
+        return _read_text_file(given, chosen, units, place)
     tail: tuple[int, ...] = ()
-    if format == "16":
+    if len(chosen.columns) == 16:
         tail = (4, 4)
+    columns = pose_columns(chosen)
     with Progress(f"reading {place}") as progress:
-        rows, lines = array_files.read_rows(given, names, "column", progress, tail=tail)
-
-    def where(i: int) -> str:
-        if lines is None:
-            return f"{place}, row {i}"
-        return f"{place}:{lines[i]}"
-
-    return pose_rows.to_poses(rows, format, quaternion, where)
+        rows, _ = array_files.read_rows(given, columns, progress, tail=tail)
+    return pose_rows.to_poses(rows, chosen, lambda i: f"{place}, row {i}")
 
 
-def numbers(words: Sequence[str], what: str, unit: str = "") -> Array:
+def _read_text_file(given: str, chosen: Layout, units: Units, place: str) -> Array:
+    file: str | int = given
+    if given in array_files.STDIN:
+        array_files.take_stdin("--input")
+        file = sys.stdin.fileno()
+    with Progress(f"reading {place}") as progress:
+        return read_file(file, chosen, units.said(), place, progress)
+
+
+def numbers(words: Sequence[str], what: str) -> Array:
     """Words as numbers. Raises: InputError that says which is none."""
     values = [real(word) for word in words]
     for i, value in enumerate(values):
         if value is None:
-            raise InputError(f"{what} {i + 1}: a number expected{unit}, got {quote(words[i])}")
+            raise InputError(f"{what} {i + 1}: a number expected, got {quote(words[i])}")
     return np.array(values, float)
 
 
@@ -137,18 +154,33 @@ def check_count(values: Array, chain: Chain, where: str = "", remedy: str = "") 
         raise InputError(f"{where}{expected}, got {len(values)}{remedy}")
 
 
-def coordinates(text: str | None, chain: Chain, option: str) -> Array | None:
-    """The numbers of an option with one for each coordinate, commas or blanks between them."""
+def coordinates(
+    text: str | None,
+    chain: Chain,
+    option: str,
+    units: Units = SI,
+) -> Array | None:
+    """The numbers of an option with one for each coordinate, commas or blanks between them, in rad
+    and m.
+    """
     if text is None:
         return None
     values = numbers(text.replace(",", " ").split(), f"{option}: number")
     check_count(values, chain, f"{option}: ")
-    return values
+    return units.to_si(values, chain)
 
 
-def for_each(text: str | None, chain: Chain, option: str) -> Array | float | None:
-    """The numbers of an option with one for all coordinates or one for each."""
+def for_each(
+    text: str | None,
+    chain: Chain,
+    option: str,
+    units: Units = SI,
+) -> Array | float | None:
+    """The numbers of an option with one for all coordinates or one for each, in rad and m."""
     words = (text or "").replace(",", " ").split()
-    if len(words) == 1:
-        return float(numbers(words, f"{option}: number")[0])
-    return coordinates(text, chain, option)
+    if len(words) != 1:
+        return coordinates(text, chain, option, units)
+    value = float(numbers(words, f"{option}: number")[0])
+    if units.mm or units.deg:
+        return units.to_si(np.full(chain.dof, value), chain)
+    return value

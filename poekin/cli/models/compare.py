@@ -8,15 +8,25 @@ from typing import Annotated
 from typer import Argument, Exit, Option
 
 from ...analysis.compare.compare import compare
-from ...analysis.compare.comparison import Comparison, JointComparison
+from ...analysis.compare.comparison import Comparison, JointComparison, Outcome
+from ...analysis.compare.differences.conventions import (
+    BUT_NAMES,
+    CONVENTIONS,
+    Convention,
+    checked,
+)
+from ...analysis.compare.differences.ends import Chosen, Remedy, remedies
 from ...checks import positive
 from ...errors import InputError, join_names
-from ...model.chain import Chain
+from ..formats.frame_numbers import frame_layout, frame_lines, frame_numbers
+from ..formats.units import Deg, Mm
 from ..kinematics.arm import FILE_HELP, Base, Json, Seed, Tip
+from ..kinematics.poses import Quaternion
 from ..model import model
 from ..output import as_json, name, number, path_text, say, table
 
-DIFFER = 1
+DEFAULT = ",".join(BUT_NAMES)
+EXIT: dict[Outcome, int] = {"same": 0, "differ": 1, "conventions": 3}
 
 A = Annotated[str, Argument(metavar="A", help=FILE_HELP)]
 B = Annotated[str, Argument(metavar="B", help="The model that it is compared with.")]
@@ -35,7 +45,23 @@ TolDeg = Annotated[
 ]
 Strict = Annotated[
     bool,
-    Option("--strict", help="Align nothing: frames, zero positions and directions count."),
+    Option("--strict", help="Show the joints as they stand, aligning nothing."),
+]
+Same = Annotated[
+    str,
+    Option(
+        "--same",
+        metavar="WORDS",
+        help=f"What may not differ, out of {','.join(CONVENTIONS)}; '' for the axes alone.",
+    ),
+]
+Format = Annotated[
+    str | None,
+    Option(
+        "--format",
+        metavar="FORMAT",
+        help="Print base and tool of the alignment as a controller takes them: kuka, ur, ..., as in ik.",
+    ),
 ]
 Samples = Annotated[
     int,
@@ -52,21 +78,29 @@ def command(
     base_b: BaseB = None,
     tol_mm: TolMm = 0.01,
     tol_deg: TolDeg = 0.001,
+    same: Same = DEFAULT,
     strict: Strict = False,
+    format: Format = None,
+    quaternion: Quaternion = None,
+    mm: Mm = None,
+    deg: Deg = None,
     samples: Samples = 200,
     seed: Seed = 0,
     json: Json = False,
 ) -> None:
-    """Two models of one arm, joint by joint: axes, zero positions, directions. Exit code 0 equal, 1
-    differ, 2 error.
+    """Two models of one arm, joint by joint: axes, zero positions, directions. Exit code 0 the same,
+    1 differ, 2 error, 3 the same arm in other conventions.
     """
-    one = _chain(a, "--tip", base, tip)
-    other = _chain(b, "--tip-b", base_b, tip_b, base, tip)
+    counted = _conventions(same)
+    chosen = frame_layout(format, quaternion, mm, deg)
+    one = _chosen(a, "--tip", base, tip)
+    other = _chosen(b, "--tip-b", base_b, tip_b, base, tip)
     positive(tol_mm, "--tol-mm")
     positive(tol_deg, "--tol-deg")
     result = compare(
-        one,
-        other,
+        one.chain,
+        other.chain,
+        same=counted,
         strict=strict,
         tol_position=tol_mm / 1e3,
         tol_rotation=math.radians(tol_deg),
@@ -74,20 +108,32 @@ def command(
         seed=seed,
     )
     if json:
-        print(as_json({"a": _where(a, one), "b": _where(b, other)} | result.to_dict()))
+        frames = {} if chosen is None else frame_numbers(result, chosen)
+        files = {"a": _where(a, one), "b": _where(b, other)}
+        print(as_json(files | result.to_dict() | frames))
     else:
-        _show(result, one, other)
-    raise Exit(0 if result.equal else DIFFER)
+        _show(result, one, other, [] if chosen is None else frame_lines(result, chosen))
+    raise Exit(EXIT[result.outcome])
 
 
-def _chain(
+def _conventions(same: str) -> tuple[Convention, ...]:
+    words = [word.strip() for word in same.split(",")]
+    if words == [""]:
+        words = []
+    try:
+        return checked(words)
+    except InputError as error:
+        raise InputError(f"--{error}") from None
+
+
+def _chosen(
     file: str,
     option: str,
     base: str | None,
     tip: str | None,
     base_like: str | None = None,
     tip_like: str | None = None,
-) -> Chain:
+) -> Chosen:
     robot = model(file)
     if base is None and base_like in robot.links:
         base = base_like
@@ -97,21 +143,38 @@ def _chain(
         raise InputError(
             f"{path_text(file)} is a tree: say which tip with {option}; tips: {join_names(robot.leaves)}"
         )
-    return robot.chain(base=base, tip=tip)
+    return Chosen(robot, robot.chain(base=base, tip=tip))
 
 
-def _where(file: str, chain: Chain) -> dict[str, str]:
-    return {"file": file, "base": chain.base, "tip": chain.tip}
+def _where(file: str, arm: Chosen) -> dict[str, str]:
+    return {"file": file, "base": arm.chain.base, "tip": arm.chain.tip}
 
 
-def _show(result: Comparison, a: Chain, b: Chain) -> None:
-    say(f"A: {name(a.base)} → {name(a.tip)}; B: {name(b.base)} → {name(b.tip)}\n")
+def _show(
+    result: Comparison,
+    a: Chosen,
+    b: Chosen,
+    frames: list[str],
+) -> None:
+    ends = [name(end) for arm in (a, b) for end in (arm.chain.base, arm.chain.tip)]
+    say("A: {} → {}; B: {} → {}\n".format(*ends))
     rows = [_joint_row(joint, result) for joint in result.joints]
     if rows:
         lengths = ("angle (deg)", "normal (mm)", "at the arm (mm)")
         heads = ("", "joint", "kind", "axis", *lengths, "zero", "direction", "limits")
         table(heads, rows, left=4)
-    say(result.summary())
+    for remedy in remedies(result, a, b):
+        say(f"Remedy: {_remedy_words(remedy)}")
+    # The outcome comes last.
+    say("\n".join([*frames, result.summary()]))
+
+
+def _remedy_words(remedy: Remedy) -> str:
+    """As in "model b: it has a longer base: --base-b base_link"."""
+    option = f"--{remedy.end}"
+    if remedy.model == "b":
+        option += "-b"
+    return f"model {remedy.model}: {remedy.reason}: {option} {name(remedy.link)}"
 
 
 def _joint_row(joint: JointComparison, result: Comparison) -> tuple[object, ...]:

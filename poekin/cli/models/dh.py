@@ -9,7 +9,7 @@ from typing import Annotated, cast
 import numpy as np
 from typer import Option
 
-from ...errors import quote
+from ...errors import escape_unprintable, quote
 from ...formats import dh
 from ...formats.dh.table import PRODUCTS
 from ...model.chain import Chain
@@ -87,4 +87,6 @@ def _show(chain: Chain, result: dh.FromChain) -> None:
         say(
             "x are the joints' own values: what follows another joint does so by its ratio and offset"
         )
+    for statement in found.coupling:
+        say(f"Coupling: {escape_unprintable(statement)}")
     say(result.summary())

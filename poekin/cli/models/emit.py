@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import re
 from pathlib import Path
@@ -21,6 +20,7 @@ from .. import array_files
 from ..kinematics.arm import Base, File, Tip
 from ..kinematics.jacobian import parse_frame
 from ..model import model
+from ..model import origin as model_origin
 from ..output import path_text, say
 
 FRAMES = (*FRAME_NAMES, "cheapest")
@@ -98,12 +98,9 @@ def command(
 
 
 def _origin(file: str, robot: Robot) -> str:
-    """The robot, and the file with its checksum where it is one."""
-    words = f"the robot {robot.name[:80]}"
-    if os.path.isfile(file):
-        digest = hashlib.sha256(Path(file).read_bytes()).hexdigest()
-        words += f", file {os.path.basename(file)} with the SHA-256 {digest}"
-    return words
+    """The robot, and the file or pipe with its checksum where it came from one."""
+    words = (f"the robot {robot.name[:80]}", model_origin(file))
+    return ", ".join(filter(None, words))
 
 
 def _texts(

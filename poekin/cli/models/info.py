@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 
 import numpy as np
@@ -16,6 +17,7 @@ from ..kinematics.jacobian import TWIST
 from ..model import model
 from ..output import as_json, matrix, name, number, say, table
 
+DRIVES = ("joint", "velocity", "effort")
 SCREWS = ("joint", "kind", "coordinate", *TWIST, "lower", "upper")
 
 
@@ -36,6 +38,7 @@ def command(file: File, tip: Tip = None, base: Base = None, json: Json = False) 
             print(as_json(_chain(chain)))
         else:
             _show_chain(chain)
+            _show_drives([robot.joint(joint) for joint in chain.joint_names])
 
 
 def _show_robot(robot: Robot, chains: list[tuple[Chain, str]]) -> None:
@@ -60,6 +63,8 @@ def _show_robot(robot: Robot, chains: list[tuple[Chain, str]]) -> None:
     if seen:
         say("\nScrews (w; v) at home, seen from each chain's base (rad, m)")
         table(SCREWS, seen.values(), left=3)
+        _tell_of_sums(chain for chain, _ in chains)
+    _show_drives(robot.joints)
 
 
 def _show_chain(chain: Chain) -> None:
@@ -69,8 +74,27 @@ def _show_chain(chain: Chain) -> None:
     )
     say(f"Screws (w; v) at home, seen from {name(chain.base)} (rad, m)")
     table(SCREWS, _screw_rows(chain), left=3)
+    _tell_of_sums([chain])
     say(f"\nHome pose of {name(chain.tip)} in {name(chain.base)} (m)")
     matrix(chain.home)
+
+
+def _tell_of_sums(chains: Iterable[Chain]) -> None:
+    """A word on limits where a joint follows several coordinates."""
+    if any((np.count_nonzero(chain.coupling, axis=1) > 1).any() for chain in chains):
+        say(
+            "Limits are those of each coordinate alone; the sum of several may be beyond its joint's"
+        )
+
+
+def _show_drives(joints: Sequence[Joint]) -> None:
+    """Velocity and effort limits, where one is known."""
+    moving = [joint for joint in joints if joint.kind != "fixed"]
+    rows = [(joint.name, joint.velocity, joint.effort) for joint in moving]
+    known = [row for row in rows if min(row[1:]) < math.inf]
+    if known:
+        say("\nLimits of velocity (rad/s or m/s) and effort (N m or N), inf where not known")
+        table(DRIVES, ((joint, *map(number, drive)) for joint, *drive in known), left=1)
 
 
 def _screw_rows(chain: Chain) -> Iterator[tuple[object, ...]]:
@@ -79,7 +103,8 @@ def _screw_rows(chain: Chain) -> Iterator[tuple[object, ...]]:
         terms = [(float(C[i, k]), int(k)) for k in np.flatnonzero(C[i])]
         limits = np.zeros(2)
         if terms:
-            limits = chain.limits[terms[0][1]]
+            own = [k for _, k in terms if chain.q_names[k] == joint]
+            limits = chain.limits[own[0] if own else terms[0][1]]
         yield (
             joint,
             chain.kinds[i],
@@ -155,17 +180,17 @@ def _robot(robot: Robot, chains: list[tuple[Chain, str]]) -> dict[str, object]:
 
 
 def _joint(joint: Joint) -> dict[str, object]:
-    columns = ("name", "kind", "parent", "child")
-    document = {column: getattr(joint, column) for column in columns}
-    document["mimic"] = None
-    if joint.mimic is not None:
-        document["mimic"] = asdict(joint.mimic)
+    document = {column: getattr(joint, column) for column in _JOINT}
+    for record in ("mimic", "safety_controller"):
+        value = getattr(joint, record)
+        document[record] = asdict(value) if value is not None else None
     return document
 
 
+_JOINT = ("name", "kind", "parent", "child", "velocity", "effort", "damping", "friction")
 _CHAIN = (
     *("base", "tip", "reach", "joint_names", "kinds", "q_names", "limits", "screws", "home"),
-    *("coupling", "offset"),
+    *("coupling", "offset", "velocity_limits"),
 )
 
 

@@ -23,23 +23,41 @@ Output = Annotated[
     Path | None,
     Option("--output", help="Where the text goes (default: it is printed)."),
 ]
+Into = Annotated[
+    str | None,
+    Option(
+        "--into",
+        metavar="URDF",
+        help="Your own URDF: its text, with origins and axes of joints that moved changed to FILE's.",
+    ),
+]
 
 
-def command(file: File, tip: Tip = None, base: Base = None, output: Output = None) -> None:
+def command(
+    file: File,
+    tip: Tip = None,
+    base: Base = None,
+    into: Into = None,
+    output: Output = None,
+) -> None:
     """URDF of the whole tree, or with --tip or --base of one chain; kinematics only, no meshes or
-    masses.
+    masses. With --into, a URDF that is there, edited.
     """
-    array_files.check_apart([output], model=file)
+    array_files.check_apart([output], model=file, URDF=into)
     robot = model(file)
     written: Robot | Chain = robot
     if tip is not None or base is not None:
         written = robot.chain(base=base, tip=tip)
-    text = to_urdf(written, name=robot.name)
-    if output is not None:
-        write_whole(output, text.encode())
-        say(f"URDF of {quote(robot.name)} written to {path_text(output)}")
+    if into is not None:
+        content = to_urdf(written, into=model(into))
     else:
+        content = to_urdf(written, name=robot.name).encode()
+    if output is not None:
+        write_whole(output, content)
+        say(f"URDF of {quote(robot.name)} written to {path_text(output)}")
+        return
+    if into is None and (sys.stdout.encoding or "").lower().replace("-", "") != "utf8":
         # A stream that is not UTF-8 gets other characters by number: XML means the same by that.
-        if (sys.stdout.encoding or "").lower().replace("-", "") != "utf8":
-            text = text.encode("ascii", "xmlcharrefreplace").decode()
-        print(text, end="")
+        content = content.decode().encode("ascii", "xmlcharrefreplace")
+    sys.stdout.flush()
+    sys.stdout.buffer.write(content)

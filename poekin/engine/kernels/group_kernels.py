@@ -1,7 +1,7 @@
 """Kernels of SO(3) and SE(3): each maps one formula over the rows of an array."""
 
 from ...algebra import angular, axes, cross, from_axes, inverse, linear, store_row
-from ...formulas.lie import defect, exp_jacobian, exponential, logarithm
+from ...formulas.lie import defect, euler, exp_jacobian, exponential, logarithm, quaternion
 from ..jit.array_io import load_matrix, load_rotation, store_matrix, store_rotation
 from ..jit.kernel import kernel
 
@@ -25,6 +25,34 @@ def so3_log_near(R, near, w):
     """The log nearest to a given one."""
     for k in range(w.shape[0]):
         store_row(w[k], logarithm.so3_near(load_rotation(R[k]), angular(near[k])))
+
+
+@kernel("r3 w2")
+def so3_quaternion(R, Q):
+    """Unit quaternions (w, x, y, z), w >= 0, of matrices."""
+    for k in range(R.shape[0]):
+        store_row(Q[k], quaternion.unit_quaternion(load_rotation(R[k])))
+
+
+@kernel("r2 w3")
+def so3_from_quaternion(Q, R):
+    """Matrices of multiples of quaternions (w, x, y, z)."""
+    for k in range(Q.shape[0]):
+        store_rotation(R[k], quaternion.rotation(Q[k][0], Q[k][1], Q[k][2], Q[k][3]))
+
+
+@kernel("r3 w2")
+def so3_zyx_turns(R, turns):
+    """Sines and cosines of A, B, C of matrices Rz(A) Ry(B) Rx(C)."""
+    for k in range(R.shape[0]):
+        store_row(turns[k], euler.zyx_turns(load_rotation(R[k])))
+
+
+@kernel("r3 w2")
+def so3_zyz_turns(R, turns):
+    """Sines and cosines of A, B, C of matrices Rz(A) Ry(B) Rz(C)."""
+    for k in range(R.shape[0]):
+        store_row(turns[k], euler.zyz_turns(load_rotation(R[k])))
 
 
 @kernel("r2 w3")

@@ -12,7 +12,7 @@ NAMES = ("panda", "stanford", "ur5e")
 
 def read(name: str) -> Robot:
     """The arm of that name, one of `NAMES`."""
-    return urdf.read_text(text(name), f"catalogue/{name}.urdf", name)
+    return urdf.read_text(text(name), f"catalogue/{name}.urdf")
 
 
 def text(name: str) -> bytes:

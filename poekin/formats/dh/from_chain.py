@@ -28,8 +28,9 @@ from ...model.geometry.normals import (
     unit,
 )
 from ...model.kinematics.arm import Arm, chain_of
+from ...model.readings.coupled import own_limits, own_readings
+from ...model.readings.statements import make_statements
 from ...results import Result, plain
-from ..common.limits import UNBOUNDED, Interval
 from .table import Convention, Row, Table, check_convention
 from .to_chain import to_chain
 
@@ -77,6 +78,7 @@ class FromChain(Result):
         table = self.table
         document = {"convention": table.convention, "joints": plain(table.rows)}
         document |= {"base_pose": table.base.tolist(), "tool_pose": table.tool.tolist()}
+        document["coupling"] = list(table.coupling)
         return document | super().to_dict()
 
     def summary(self) -> str:
@@ -102,8 +104,8 @@ def from_chain(
 ) -> FromChain:
     """Denavit-Hartenberg table of a chain of revolute and prismatic joints, in either convention.
 
-    The table's variables are the joints' own, x = C q + c of a coupled chain. Base and tool carry
-    what the rows cannot.
+    The table's variables are the joints' own, x = C q + c of a coupled chain; coupled readings of
+    the joints' names are kept as the table's coupling. Base and tool carry what the rows cannot.
 
     Parameters
     ----------
@@ -175,7 +177,7 @@ def from_chain(
         bound += 2 * sum(walk.dropped) * max(1.0, away / chain.reach)
     error = _error(chain, table, samples, seed)
     return FromChain(
-        table,
+        _with_coupling(table, chain),
         tuple(walk.gauge),
         error,
         bound,
@@ -288,7 +290,7 @@ class _Walk:
         links = [(0.0, 0.0), *self.normals]
         if convention == "standard":
             links.append(links.pop(0))
-        limits = _limits(chain)
+        limits = [(low, high) for low, high in own_limits(chain).tolist()]
         kinds: Any = chain.kinds
         rows = [
             Row(
@@ -329,20 +331,6 @@ _X = exact(np.eye(3)[0])
 _Y = exact(np.eye(3)[1])
 
 
-def _limits(chain: Chain) -> list[Interval]:
-    """Limits of the joints' own values, where one coordinate alone sets them."""
-    found = []
-    for row, shift in zip(chain.coupling, chain.offset.tolist(), strict=True):
-        (ks,) = row.nonzero()
-        lower, upper = UNBOUNDED
-        if len(ks) == 1:
-            k = ks[0]
-            ends = (float(row[k] * x) + shift for x in chain.limits[k])
-            lower, upper = sorted(ends)
-        found.append((lower, upper))
-    return found
-
-
 def _turn(
     x: Vector,
     x2: Vector,
@@ -360,6 +348,21 @@ def _pose(x: Vector, z: Vector, o: Vector) -> Array:
     vectors = (x, cross(z, x), z, o)
     columns = [[float(value) for value in vector] for vector in vectors]
     return se3.pose(np.transpose(columns[:3]), columns[3])
+
+
+def _with_coupling(table: Table, chain: Chain) -> Table:
+    """The table with the coupling of the chain's readings, where these have the joints' names."""
+    readings = own_readings(chain)
+    if readings is None or chain.offset.any():
+        return table
+    return Table(
+        table.convention,
+        table.rows,
+        base=table.base,
+        tool=table.tool,
+        name=table.name,
+        coupling=make_statements(readings.K, table.names),
+    )
 
 
 def _error(

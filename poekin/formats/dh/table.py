@@ -16,6 +16,7 @@ from ...checks import REQUIRED, choice
 from ...errors import InputError, PoekinWarning, ShapeError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.checks import bounds, distinct_names, finite, one_pose, read_only
+from ...model.readings.statements import Statements, canonical
 from ..common.limits import UNBOUNDED, Interval
 
 Convention = Literal["standard", "modified"]
@@ -89,6 +90,9 @@ class Table:
         Pose of the tool in the last frame, m; by default the identity.
     name : str, default "arm"
         Name of the arm.
+    coupling : str or sequence of str, optional
+        Statements such as "J3 = J2 + J3", by which a joint's x follows several readings; see
+        `Chain.coupled`.
 
     Attributes
     ----------
@@ -104,6 +108,8 @@ class Table:
         Names of the joints.
     limits : (n, 2) ndarray
         Lower and upper limits of x, rad or m.
+    coupling : tuple of str
+        Statements of the coupling, none where each joint's x is its reading.
 
     Raises
     ------
@@ -149,6 +155,7 @@ class Table:
     base: Array
     tool: Array
     name: str
+    coupling: tuple[str, ...]
 
     def __init__(
         self,
@@ -158,6 +165,7 @@ class Table:
         base: ArrayLike | None = None,
         tool: ArrayLike | None = None,
         name: str = "arm",
+        coupling: Statements = (),
     ) -> None:
         check_convention(convention)
         if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
@@ -178,6 +186,7 @@ class Table:
             "base": _pose(base, "base"),
             "tool": _pose(tool, "tool"),
             "name": str(name),
+            "coupling": canonical(coupling, names),
         }
         for column in COLUMNS:
             values[column] = read_only(finite([getattr(row, column) for row in made], column))
@@ -216,7 +225,13 @@ class Table:
         return hash((self.convention, self.kinds, self.names, tuple(self.theta.tolist())))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        make = functools.partial(Table, base=self.base, tool=self.tool, name=self.name)
+        make = functools.partial(
+            Table,
+            base=self.base,
+            tool=self.tool,
+            name=self.name,
+            coupling=self.coupling,
+        )
         return make, (self.convention, self.rows)
 
     def __repr__(self) -> str:
@@ -226,6 +241,7 @@ class Table:
             f"  d {_shown(r.d)}{_moves(r, 'prismatic')}  a {_shown(r.a)}  alpha {_shown(r.alpha)}"
             for r in self.rows
         ]
+        lines += [f"  coupling: {statement}" for statement in self.coupling]
         return "\n".join(lines) + ">"
 
 

@@ -1,9 +1,10 @@
 """DH tables as files: TOML, or CSV for spreadsheets, both with convention, base and tool; rad, m.
 
-TOML: convention, name, base and tool (4x4, identity if left out), and a [[joint]] for each row with
-theta, d, a, alpha and, where they differ from the default, kind, flip, name and limits.
+TOML: convention, name, base and tool (4x4, identity if left out), coupling (a list of statements
+such as "J3 = J2 + J3"), and a [[joint]] for each row with theta, d, a, alpha and, where they differ
+from the default, kind, flip, name and limits.
 CSV: a header of these columns and `convention`; a row whose kind is "base" or "tool" holds a pose's
-first three rows, twelve numbers, in the column `pose`.
+first three rows, twelve numbers, in the column `pose`; the column `coupling` holds statements.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from ...errors import (
     safe_repr,
 )
 from ...groups.arrays import Array
+from ...model.readings.statements import statements_by_joint
 from ..common.limits import UNBOUNDED
 from ..text import toml_text, xml
 from ..text.atomic_write import FilePath, write_whole
@@ -39,6 +41,7 @@ TOP: tuple[str, ...] = (
     "source",
     "base",
     "tool",
+    "coupling",
     "joint",
 )
 _CELLS: tuple[str, ...] = ("name", "kind", *COLUMNS, "flip")
@@ -49,6 +52,7 @@ CSV_COLUMNS: tuple[str, ...] = (
     "lower",
     "upper",
     "pose",
+    "coupling",
 )
 _TRUTHS = {"true": True, "false": False}
 
@@ -91,10 +95,10 @@ def read(path: FilePath) -> Table:
     return read_text(text, os.fsdecode(path))
 
 
-def read_text(text: str, name: str) -> Table:
-    """Table in the text of a file, TOML or CSV as its name ends. Raises as `read`."""
-    stem, ending = os.path.splitext(os.path.basename(name))
-    reader = _reader(name, ending, _READERS)
+def read_text(text: str, name: str, ending: str = "") -> Table:
+    """Table in the text of a file, TOML or CSV as `ending` says, or its name. Raises as `read`."""
+    stem, own_ending = os.path.splitext(os.path.basename(name))
+    reader = _reader(name, ending or own_ending, _READERS)
     return reader(text, escape_unprintable(name, 400), stem)
 
 
@@ -158,6 +162,11 @@ def _from_toml(text: str, place: str, stem: str) -> Table:
     keys = Keys(data, place, TOP)
     joints = keys.tables("joint", FIELDS)
     given = keys.data
+    coupling: tuple[str, ...] = ()
+    if isinstance(given.get("coupling"), str):
+        coupling = (keys.text("coupling"),)
+    elif "coupling" in given:
+        coupling = keys.texts("coupling")
     return _table(
         place,
         given.get("convention"),
@@ -165,6 +174,7 @@ def _from_toml(text: str, place: str, stem: str) -> Table:
         given.get("base"),
         given.get("tool"),
         given.get("name", stem),
+        coupling,
     )
 
 
@@ -204,6 +214,7 @@ def _from_csv(text: str, place: str, stem: str) -> Table:
         poses.get("base"),
         poses.get("tool"),
         stem,
+        tuple(found.coupling),
     )
 
 
@@ -214,6 +225,7 @@ class _CsvTable:
         self.header = header
         self.rows: list[Row] = []
         self.poses: dict[str, Array] = {}
+        self.coupling: list[str] = []
         self.convention: str | None = None
         keys = Keys(Counter(header), f"{place}:1", CSV_COLUMNS)
         for column, times in keys.data.items():
@@ -234,6 +246,8 @@ class _CsvTable:
         posed = kind in ("base", "tool")
         if record["convention"] or not posed:  # of a pose it may be left out
             self._take_convention(record["convention"], line)
+        if statement := record.get("coupling"):
+            self.coupling.append(statement)
         if not posed:
             self.rows.append(_row(_as_keys(record, line)))
             return
@@ -279,9 +293,17 @@ def _table(
     base: Any,
     tool: Any,
     name: str,
+    coupling: tuple[str, ...],
 ) -> Table:
     try:
-        return Table(convention, rows, base=base, tool=tool, name=name)
+        return Table(
+            convention,
+            rows,
+            base=base,
+            tool=tool,
+            name=name,
+            coupling=coupling,
+        )
     except PoekinError as fault:
         raise ModelError(f"{place}: {fault}") from fault
 
@@ -299,6 +321,8 @@ def _to_toml(table: Table) -> str:
     }
     for what, T in _placed(table).items():
         data[what] = T.tolist()
+    if table.coupling:
+        data["coupling"] = list(table.coupling)
     joints = []
     for row in table.rows:
         joint = {key: getattr(row, key) for key in _CELLS}
@@ -311,7 +335,16 @@ def _to_toml(table: Table) -> str:
 
 def _to_csv(table: Table) -> str:
     out = io.StringIO()
-    writer: csv.DictWriter[str] = csv.DictWriter(out, CSV_COLUMNS, restval="", lineterminator="\n")
+    columns = CSV_COLUMNS
+    if not table.coupling:
+        columns = columns[:-1]
+    writer: csv.DictWriter[str] = csv.DictWriter(
+        out,
+        columns,
+        restval="",
+        extrasaction="ignore",
+        lineterminator="\n",
+    )
     writer.writeheader()
     for what, T in _placed(table).items():
         numbers = T[:3].ravel().tolist()
@@ -322,7 +355,8 @@ def _to_csv(table: Table) -> str:
                 "pose": " ".join(map(repr, numbers)),
             }
         )
-    for row in table.rows:
+    statements = statements_by_joint(table.coupling, table.names)
+    for row, statement in zip(table.rows, statements, strict=True):
         numbers = {column: repr(getattr(row, column)) for column in COLUMNS}
         lower, upper = map(repr, row.limits)
         writer.writerow(
@@ -334,6 +368,7 @@ def _to_csv(table: Table) -> str:
                 "flip": str(row.flip).lower(),
                 "lower": lower,
                 "upper": upper,
+                "coupling": statement,
             }
         )
     return out.getvalue()

@@ -35,7 +35,7 @@ def link_poses(table: Table) -> list[tuple[float, ...]]:
 
 
 def to_chain(table: Table) -> Chain:
-    """Chain of a Denavit-Hartenberg table, with the table's names and limits.
+    """Chain of a Denavit-Hartenberg table, with the table's names, limits and coupling.
 
     Its screws are A_i = Ad(K_0 ... K_{i-1}) P_i, reversed for a flipped joint, and its home pose is
     M = K_0 ... K_n, K the constant link poses.
@@ -78,13 +78,16 @@ def to_chain(table: Table) -> Chain:
     A = np.zeros((len(table), 6))
     K = link_poses(table)
     M = dh.screws(K, rotates, slides, len(table), A)
-    return Chain.from_space(
+    chain = Chain.from_space(
         A,
         _matrix(M),
         joint_names=table.names,
         limits=table.limits,
         pitches=np.zeros(len(table)),
     )
+    if table.coupling:
+        return chain.coupled(table.coupling)
+    return chain
 
 
 def _link(
@@ -153,7 +156,7 @@ def to_robot(table: Table) -> Robot:
         )
     fixed = free_name("tool_mount", set(table.names))
     joints.append(Joint(fixed, "fixed", links[-2], "tool", origins[-1]))
-    return Robot(table.name, links, joints)
+    return Robot(table.name, links, joints, coupling=table.coupling)
 
 
 def _matrix(K: tuple[float, ...]) -> Array:

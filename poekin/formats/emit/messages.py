@@ -17,6 +17,8 @@ from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, compiled
 from ...model.kinematics.compiled import CompiledChain
 from ...model.kinematics.pose_jacobian import FRAME_NAMES, AnyFrame
+from ...model.readings.coupled import own_readings
+from ...model.readings.statements import make_statements
 from ...version import __version__
 
 _PLAIN = set(string.ascii_letters + string.digits + string.punctuation + " ") - set("*?\\\"'`")
@@ -110,11 +112,25 @@ def header_lines(arm: CompiledChain, frame: AnyFrame) -> list[str]:
         f" {_many(len(chain.kinds), 'joint')}, {_many(chain.dof, 'coordinate')}. Units: rad, m.",
         "",
         *(_coordinate(chain, k) for k in range(chain.dof)),
+        *_readings(chain),
         *[""] * bool(chain.dof),
         "T = (R, p; 0, 1), 4 x 4 row by row: the pose of the tip in the base frame; p in m.",
         f"J, 6 x {chain.dof} row by row: V = J dq. Rows omega x, y, z (rad/s), then v x, y, z (m/s), per unit of dq.",
     ]
     return [*lines, *_frame(arm, frame)]
+
+
+def _readings(chain: Chain) -> list[str]:
+    """Lines on joints that follow several readings."""
+    readings = own_readings(chain)
+    if readings is None:
+        return []
+    statements = make_statements(readings.K, chain.joint_names)
+    return [
+        "",
+        "Joints that follow sums of coordinates:",
+        *(f"  {quote_ascii(s)}" for s in statements),
+    ]
 
 
 def _coordinate(chain: Chain, k: int) -> str:

@@ -43,6 +43,7 @@ from ...errors import (
     escape_unprintable,
     quote,
 )
+from ...formulas.lie import quaternion
 from ...groups import se3
 from ...model.provenance import Source, warn
 from ...model.robot import Robot
@@ -145,8 +146,8 @@ def _read(
         ) from refusal
     title = root.get("model") or os.path.splitext(os.path.basename(name))[0]
     try:
-        bodies = _poses(model.body_pos, model.body_quat, mujoco)
-        sites = _poses(model.site_pos, model.site_quat, mujoco)
+        bodies = _poses(model.body_pos, model.body_quat)
+        sites = _poses(model.site_pos, model.site_quat)
         # What comes of numbers too large is refused as a joint's origin.
         with np.errstate(all="ignore"):
             robot, said = ModelReader(model).robot(bodies, sites, title, source, other)
@@ -219,13 +220,7 @@ def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
     return other
 
 
-def _poses(
-    places: np.ndarray,
-    quaternions: np.ndarray,
-    mujoco: ModuleType,
-) -> np.ndarray:
+def _poses(places: np.ndarray, quaternions: np.ndarray) -> np.ndarray:
     """Poses (N, 4, 4) [m] of places (N, 3) and unit quaternions (N, 4), w first."""
-    R = np.empty((len(places), 9))
-    for row, quaternion in zip(R, quaternions, strict=True):
-        mujoco.mju_quat2Mat(row, quaternion)
-    return se3.pose(R.reshape(-1, 3, 3), places)
+    R = [quaternion.rotation(*row) for row in quaternions.tolist()]
+    return se3.pose(np.reshape(R, (-1, 3, 3)), places)

@@ -15,7 +15,7 @@ from ...model.joint import Joint, JointKind, Mimic
 from ...model.provenance import Source
 from ...model.robot import Robot
 from ...model.tree.chain_between import TWELVE
-from ..common.limits import UNBOUNDED
+from ..common.limits import UNBOUNDED, known_effort, known_loss
 from ..common.names import free_name
 
 # By the number that MuJoCo gives to a joint's type (mjtJoint).
@@ -174,6 +174,7 @@ class ModelReader:
                     motion.axis,
                     motion.limits,
                     mimic,
+                    **self._drive(j, motion.kind),
                 )
             )
             parent = child
@@ -198,6 +199,25 @@ class ModelReader:
         if kind == "revolute":
             kind = "continuous"
         return _Motion(kind, axis, UNBOUNDED, at_zero)
+
+    def _drive(self, j: int, kind: JointKind) -> dict[str, Any]:
+        """Damping, friction and effort of a joint; MJCF has no velocity limits.
+
+        The effort is the range of the force of all actuators on the joint, where that is the same
+        both ways.
+        """
+        model = self.model
+        if kind == "fixed":
+            return {}
+        k = int(model.jnt_dofadr[j])
+        drive = {
+            "damping": known_loss(float(model.dof_damping[k])),
+            "friction": known_loss(float(model.dof_frictionloss[k])),
+        }
+        lower, upper = model.jnt_actfrcrange[j].tolist()
+        if model.jnt_actfrclimited[j] and lower == -upper:
+            drive["effort"] = known_effort(upper)
+        return drive
 
     def _equalities(self) -> tuple[dict[int, Mimic], dict[int, float]]:
         """Mimic joints and joints held at a value: y - y_0 = a_0 + a_1 (x - x_0), q_0 = qpos0."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,10 +11,17 @@ from ...errors import ModelError, quote
 from ...groups import se3
 from ...groups.arrays import Array
 from ...model.checks import one_pose
-from ...model.joint import Joint, Mimic
+from ...model.joint import MOVING, Joint, Mimic
 from ...model.provenance import warn
 from ...model.robot import Robot
-from ..common.limits import UNBOUNDED, Interval, without_absurd
+from ..common.limits import (
+    UNBOUNDED,
+    Interval,
+    known_effort,
+    known_loss,
+    known_velocity,
+    without_absurd,
+)
 from ..common.names import free_name
 from .attributes import has
 from .pinocchio_joint import extracted, joint_type, motions
@@ -27,6 +35,13 @@ _MODEL = (
     "frames",
     "lowerPositionLimit",
 )
+_OF_DRIVES: dict[str, tuple[str, Callable[[float], float]]] = {
+    "velocity": ("velocityLimit", known_velocity),
+    "effort": ("effortLimit", known_effort),
+    "damping": ("damping", known_loss),
+    "friction": ("friction", known_loss),
+}
+"""By field of a Joint: the model's array of it, and what is known by its numbers."""
 _LIMITED = ("revolute", "prismatic", "helical")
 
 
@@ -67,7 +82,9 @@ def make_robot(model: Any) -> Robot:
     A continuous joint has one angle. A free-flyer is a floating joint, planar a planar one;
     universal, translation, spherical ZYX and composite joints are several in series, JOINT_1,
     JOINT_2, .... A joint that mimics another one does so here. Limits of 1e4 and more bound
-    nothing; nor do equal ones, with a PoekinWarning, as in a URDF.
+    nothing; nor do equal ones, with a PoekinWarning, as in a URDF. Velocity and effort limits,
+    damping and friction are the model's; a velocity limit of 0 is not known, as in a URDF. What
+    mimics another joint has none: Pinocchio keeps none for it.
 
     Parameters: model. Returns: Robot; its q is in the order of the model's.
     Raises: ModelError that names the joint where Robot has no such kind: spherical, ellipsoid, and
@@ -210,6 +227,9 @@ def _moving(
         if mimic is None and part.kind in _LIMITED:
             coordinate = int(joint.idx_q) + k
             limits = _limits(model, coordinate, called, unusable)
+        drive: dict[str, Any] = {}
+        if mimic is None and part.kind in MOVING:
+            drive = _drive(model, joint, k)
         pose = origin @ part.origin
         joints.append(
             Joint(
@@ -222,6 +242,7 @@ def _moving(
                 limits,
                 mimic,
                 part.pitch,
+                **drive,
             )
         )
         parent = end
@@ -238,6 +259,16 @@ def _mimic(model: Any, j: int, joint: Any) -> Mimic | None:
     masters = dict(zip(mimicking, mimicked, strict=True))
     master = str(model.names[masters[j]])
     return Mimic(master, float(bare.scaling), float(bare.offset))
+
+
+def _drive(model: Any, joint: Any, k: int) -> dict[str, float]:
+    """Velocity and effort limits, damping and friction of velocity k of the joint."""
+    drive = {}
+    for field, (array, known) in _OF_DRIVES.items():
+        values = getattr(model, array, None)
+        if values is not None:
+            drive[field] = known(float(values[int(joint.idx_v) + k]))
+    return drive
 
 
 def _limits(

@@ -8,24 +8,29 @@ import io
 import itertools
 import math
 import os
+import re
 import stat
 from array import array
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, TextIO
 
 import numpy as np
 
-from ...errors import FileError, InputError, UnknownName, escape_unprintable, quote, suggest
+from ...errors import FileError, InputError, escape_unprintable, quote
 from ...results import Progress
+from . import csv_dialect, csv_header
 from .atomic_write import FilePath, reason
+from .csv_dialect import Line
+from .csv_header import Columns
 from .numbers import real
 
-Line = tuple[int, list[str]]
 AT_ONCE = 10_000
 """Lines after which progress is said, and that are written together."""
 LONGEST = 2**20
 """Characters in a line: what has no line breaks is no CSV, and might have no end."""
 AS_HEADER = ", as the header has"
+_UTF16 = (b"\xff\xfe", b"\xfe\xff")
+_WHOLE = re.compile(r"\s*[+-]?\d+\s*")
 MOST = 2**28
 """Characters out of a pipe or a device, which need not have an end."""
 
@@ -48,7 +53,10 @@ def opened(
         with open(path, newline="", encoding="utf-8-sig", closefd=not is_open) as stream:
             yield stream, where, os.fstat(stream.fileno()).st_size
     except UnicodeDecodeError as error:
-        raise FileError(f"{where} is no text file: byte {error.start} is not UTF-8") from error
+        wide = "" if error.object[:2] not in _UTF16 else "; it is UTF-16, save it as CSV UTF-8"
+        raise FileError(
+            f"{where} is no text file: byte {error.start} is not UTF-8{wide}"
+        ) from error
     except (OSError, ValueError) as error:
         if isinstance(error, (FileError, InputError)):
             raise
@@ -57,43 +65,31 @@ def opened(
 
 def read(
     stream: TextIO,
-    names: Sequence[str],
+    columns: Columns,
     where: str,
-    what: str,
     progress: Progress | None = None,
     size: int = 0,
-    *,
-    besides: Sequence[str] = (),
-    first: Sequence[str] = (),
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows (N, k) in the order of the names, and the number of each row's line in the file (N,).
 
-    One row a line, in the order of `names` or of a first line that names them all; empty lines are
-    passed over. Parameters: stream, a text opened with newline=""; where, the file as messages call
-    it; what, a column's kind ("coordinate"); progress(characters read, size); besides, columns that
-    such a first line may name, too: they are passed over; first, columns that it may name together,
-    too: where it does, rows (N, len(first) + k) begin with
-    them. Raises: FileError for what is no CSV; InputError with file and line for a line of the
-    wrong length or a
-    cell that is no number; UnknownName for a header with a name that is none.
+    One row a line, in the order of the names or of a first line that names them all and may say
+    units; empty lines are passed over. Parameters: stream, a text opened with newline=""; columns;
+    where, the file as messages call it; progress(characters read, size). Raises: FileError for what
+    is no CSV; InputError with file and line for a line of the wrong length or a cell that is no
+    number; UnknownName for a header with a name that is none.
     """
-    lines = _lines(stream, where)
+    lines = csv_dialect.split(_bounded(stream, where), where, columns.names)
     top = next(lines, None)
-    columns = _Columns(range(len(names)), len(names), _name_list(names))
+    chosen = _in_order(columns.names)
     if top is not None:
         line, cells = top
-        words = [cell.strip() for cell in cells]
-        if first and set(first) <= set(words):
-            names = (*first, *names)
-            columns = columns._replace(names=_name_list(names))
-        if _is_header(words, names):
-            chosen = _order(words, names, besides, f"{where}:{line}", what)
-            columns = columns._replace(chosen=chosen, width=len(words))
-            if len(words) != len(names):
-                columns = columns._replace(names=AS_HEADER)
-        else:
+        chosen = _chosen(cells, columns, f"{where}:{line}")
+        if not chosen.is_header:
             lines = itertools.chain([top], lines)
-    return _rows(lines, columns, where, progress, size)
+    rows, numbers = _rows(lines, chosen, where, progress, size)
+    for k, function in chosen.conversions.items():
+        rows[:, k] = function(rows[:, k])
+    return rows, numbers
 
 
 def read_chosen(
@@ -111,14 +107,14 @@ def read_chosen(
     are those of `read`.
     Raises also: InputError for a file without a line.
     """
-    lines = _lines(stream, where)
+    lines = csv_dialect.split(_bounded(stream, where), where)
     line, cells = next(lines, (0, []))
     if not cells:
         raise InputError(
             f"{where}: a first line that names the columns expected, the file is empty"
         )
     chosen = choose([cell.strip() for cell in cells], f"{where}:{line}")
-    return _rows(lines, _Columns(chosen, len(cells), AS_HEADER), where, progress, size)
+    return _rows(lines, _Chosen(chosen, len(cells), AS_HEADER), where, progress, size)
 
 
 def _bounded(stream: TextIO, where: str) -> Iterator[str]:
@@ -150,34 +146,55 @@ def _is_file(stream: TextIO) -> bool:
         return True
 
 
-def _lines(stream: TextIO, where: str) -> Iterator[Line]:
-    """Number and cells of each line that is not empty."""
-    reader = csv.reader(_bounded(stream, where))
-    try:
-        for cells in reader:
-            if any(cell.strip() for cell in cells):
-                yield reader.line_num, cells
-    except csv.Error as error:
-        raise FileError(f"{where}:{reader.line_num}: not CSV: {error}") from error
+class _Chosen(NamedTuple):
+    """Columns that are read: their indices, the number of all, their names for messages, whether
+    the first line names them, and what converts their units, by their place in a row.
+    """
 
-
-class _Columns(NamedTuple):
-    """Columns that are read: their indices, the number of all, and their names for messages."""
-
-    chosen: Sequence[int]
+    indices: Sequence[int]
     width: int
     names: str
+    is_header: bool = False
+    conversions: Mapping[int, Callable[[np.ndarray], np.ndarray]] = {}
+
+
+def _in_order(names: Sequence[str]) -> _Chosen:
+    return _Chosen(range(len(names)), len(names), _name_list(names))
+
+
+def _chosen(cells: Sequence[str], columns: Columns, here: str) -> _Chosen:
+    """The columns that a file is read by, of its first line."""
+    words = [cell.strip() for cell in cells]
+    known = (*columns.first, *columns.names, *columns.besides)
+    headings = [csv_header.heading(word, known) for word in words]
+    given = {heading.name for heading in headings}
+    if columns.first and given.issuperset(columns.first):
+        columns = columns.with_first()
+    if _is_header(words, columns.names):
+        if given.isdisjoint(columns.last):
+            columns = columns.without_last()
+        names = AS_HEADER if len(words) != len(columns.names) else _name_list(columns.names)
+        return _Chosen(
+            csv_header.order(headings, columns, here),
+            len(words),
+            names,
+            True,
+            csv_header.conversions(headings, columns, here),
+        )
+    if len(words) == len(columns.without_last().names):
+        columns = columns.without_last()
+    return _in_order(columns.names)
 
 
 def _rows(
     lines: Iterable[Line],
-    columns: _Columns,
+    columns: _Chosen,
     where: str,
     progress: Progress | None,
     size: int,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows (N, k) of the chosen columns, and the lines' numbers."""
-    chosen = columns.chosen
+    chosen = columns.indices
     # Packed: Python's own numbers would take several times as much memory.
     values = array("d")
     numbers = array("q")
@@ -186,7 +203,8 @@ def _rows(
         done += sum(map(len, cells)) + len(cells)
         if len(cells) != columns.width:
             raise InputError(
-                f"{where}:{line}: {columns.width} values expected{columns.names}, got {len(cells)}"
+                f"{where}:{line}: {columns.width} values expected{columns.names},"
+                f" got {len(cells)}{_cure(cells, columns.width)}"
             )
         values.extend(_real(cells[i], f"{where}:{line}, column {i + 1}") for i in chosen)
         numbers.append(line)
@@ -205,7 +223,11 @@ def text(
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([escape_unprintable(h) for h in header])
+    words = [escape_unprintable(h) for h in header]
+    if any(";" in word for word in words):  # which would be taken for the separator
+        csv.writer(out, lineterminator="\n", quoting=csv.QUOTE_ALL).writerow(words)
+    else:
+        writer.writerow(words)
     for start in range(0, len(rows), AT_ONCE):
         if progress is not None:
             progress(start, len(rows))
@@ -218,27 +240,11 @@ def _is_header(words: Sequence[str], names: Sequence[str]) -> bool:
     return sorted(words) == sorted(names) or all(real(word) is None for word in words)
 
 
-def _order(
-    words: Sequence[str],
-    names: Sequence[str],
-    besides: Sequence[str],
-    where: str,
-    what: str,
-) -> Sequence[int]:
-    for word in words:
-        if word not in names and word not in besides:
-            raise UnknownName(
-                f"{where}: {quote(word)} is neither a number nor a {what}; {suggest(word, names)}"
-            )
-    missing = [n for n in names if n not in words]
-    if missing or len(set(words)) != len(words):
-        fault = "a name appears twice"
-        if missing:
-            fault = f"{quote(missing[0])} is missing"
-        raise InputError(
-            f"{where}: the header has to name each of the {len(names)} {what}s once; {fault}"
-        )
-    return [words.index(n) for n in names]
+def _cure(cells: Sequence[str], width: int) -> str:
+    """End of a message: what to do where commas seem to be decimal marks and separators."""
+    if len(cells) != 2 * width or not all(_WHOLE.fullmatch(cell) for cell in cells):
+        return ""
+    return "; with decimal commas, write ; between the columns"
 
 
 def _real(cell: str, where: str) -> float:

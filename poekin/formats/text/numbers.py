@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 
 def real(text: str) -> float | None:
     """The number that a text says, nan and inf among them, or None where it says none.
@@ -15,3 +17,8 @@ def real(text: str) -> float | None:
         return float(text)
     except ValueError:
         return None
+
+
+def shortest(values: Iterable[float]) -> str:
+    """Numbers apart by blanks, each in the shortest form that reads back as the same float."""
+    return " ".join(repr(float(x) + 0.0).removesuffix(".0") for x in values)

@@ -139,6 +139,6 @@ class Fields:
 
 
 def _hint(text: str) -> str:
-    if "${" in text:
+    if "${" in text or "$(" in text:
         return " (an unprocessed xacro expression?)"
     return ""

@@ -1,12 +1,13 @@
-"""YAML read safely: mappings of mappings of plain texts, each with its line.
+"""YAML read safely: mappings of mappings of plain texts, each with its line, or one text of them.
 
 The parser's events are read one after the other, so that neither deep nesting nor aliases, which
-stand for many times their own length, have anything to grow into. Tags, anchors, aliases, lists and
-a second document are refused.
+stand for many times their own length, have anything to grow into. In a mapping that is wanted
+whole, tags, anchors, aliases, lists and a second document are refused.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -37,27 +38,87 @@ def parse(text: str, place: str) -> MappingNode:
     Raises: ModelError with file and line for a text that is no YAML, no mapping, has a key twice or
     no key, or uses what is refused (see the top of this module); MissingExtra without pyyaml.
     """
+    yaml = _package()
+    builder = _Builder(place, yaml)
+    for event in _events(text, place, yaml):
+        builder.take(event)
+    if builder.root is None:
+        raise ModelError(f"{place}: the text is empty")
+    return builder.root
+
+
+def find(text: str, place: str, names: tuple[str, ...]) -> TextNode | None:
+    """First text that stands for a key of one of the names, at any depth, or is the document.
+
+    What comes behind it is not read; lists, tags and aliases are passed over. None where there is
+    no such text. Parameters: text; place, what to call it in messages; names.
+    Raises: ModelError with file and line for a text that is no YAML or too deep; MissingExtra
+    without pyyaml.
+    """
+    yaml = _package()
+    opens = (yaml.MappingStartEvent, yaml.SequenceStartEvent)
+    closes = (yaml.MappingEndEvent, yaml.SequenceEndEvent)
+    around: list[_Level] = []
+    for event in _events(text, place, yaml):
+        if isinstance(event, closes):
+            around.pop()
+        if not isinstance(event, (*opens, yaml.ScalarEvent, yaml.AliasEvent)):
+            continue
+        line = event.start_mark.line + 1
+        value = getattr(event, "value", "")
+        wanted = around and around[-1].key in names
+        document = not around and value  # behind a last --- there is an empty one
+        if (wanted or document) and isinstance(event, yaml.ScalarEvent):
+            return TextNode(value, line)
+        if around and around[-1].in_mapping:
+            around[-1].take(value)
+        if isinstance(event, opens):
+            around.append(_Level(isinstance(event, yaml.MappingStartEvent)))
+        if len(around) > DEEPEST:
+            raise ModelError(f"{place}:{line}: expected at most {DEEPEST} levels, got more")
+    return None
+
+
+class _Level:
+    """An open mapping or list, and the key of a mapping whose value comes next."""
+
+    def __init__(self, in_mapping: bool) -> None:
+        self.in_mapping = in_mapping
+        self.key: str | None = None
+
+    def take(self, value: str) -> None:
+        """Take a key, or the value of the key that was taken."""
+        if self.key is None:
+            self.key = value
+        else:
+            self.key = None
+
+
+def _package() -> ModuleType:
     try:
         import yaml
     except ImportError as missing:
         raise MissingExtra("pyyaml", "formats", "reading YAML") from missing
-    builder = _Builder(place, yaml)
-    try:
-        for event in yaml.parse(text, Loader=yaml.SafeLoader):
-            builder.take(event)
-    except ModelError:
-        raise
-    # "\U00110000": the parser calls chr() unchecked.
-    except (yaml.YAMLError, ValueError, OverflowError) as fault:
-        mark: Any = getattr(fault, "problem_mark", None)
-        where = place
-        if mark:
-            where = f"{place}:{mark.line + 1}"
-        reason = getattr(fault, "problem", None) or str(fault)
-        raise ModelError(f"{where}: not YAML: {escape_unprintable(reason, 200)}") from fault
-    if builder.root is None:
-        raise ModelError(f"{place}: the text is empty")
-    return builder.root
+    return yaml
+
+
+def _events(text: str, place: str, yaml: ModuleType) -> Iterator[Any]:
+    """Events of the parser. Raises: ModelError with file and line for a text that is no YAML."""
+    events = yaml.parse(text, Loader=yaml.SafeLoader)
+    while True:
+        try:
+            event = next(events, None)
+        # "\U00110000": the parser calls chr() unchecked.
+        except (yaml.YAMLError, ValueError, OverflowError) as fault:
+            mark: Any = getattr(fault, "problem_mark", None)
+            where = place
+            if mark:
+                where = f"{place}:{mark.line + 1}"
+            reason = getattr(fault, "problem", None) or str(fault)
+            raise ModelError(f"{where}: not YAML: {escape_unprintable(reason, 200)}") from fault
+        if event is None:
+            return
+        yield event
 
 
 class _Builder:

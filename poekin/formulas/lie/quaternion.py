@@ -9,6 +9,7 @@ enters as d^2 (tests/formulas/lie/test_quaternion.py).
 Source: Shepperd 1978, with one step of the power method towards the rotation nearest to R.
 """
 
+from .. import elementary
 from .compensated import upper
 
 _UNIT = 2.0**-25  # as `size` of `upper`: digits down to the last one of 4
@@ -120,4 +121,35 @@ def quaternion(R):
         sign * (q[1] + rest[1]),
         sign * (q[2] + rest[2]),
         sign * (q[3] + rest[3]),
+    )
+
+
+def unit_quaternion(R):
+    """The unit quaternion (w, x, y, z), w >= 0, of the rotation nearest to R, to 3 u."""
+    w, x, y, z = quaternion(R)
+    length = elementary.sqrt(w * w + x * x + y * y + z * z)
+    return (w / length, x / length, y / length, z / length)
+
+
+def rotation(w, x, y, z):
+    """The rotation of a multiple of a quaternion, I + 2 (w [v] + [v]^2) / |q|^2, to 6 u.
+
+    On the diagonal w^2 + x^2 - y^2 - z^2 over |q|^2: no term there is twice as large as the sum.
+    """
+    ww = w * w
+    xx = x * x
+    yy = y * y
+    zz = z * z
+    square = ww + xx + yy + zz
+    half = 0.5 * square
+    return (
+        (ww + xx - yy - zz) / square,
+        (x * y - w * z) / half,
+        (z * x + w * y) / half,
+        (x * y + w * z) / half,
+        (ww + yy - zz - xx) / square,
+        (y * z - w * x) / half,
+        (z * x - w * y) / half,
+        (y * z + w * x) / half,
+        (ww + zz - xx - yy) / square,
     )

@@ -14,9 +14,10 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 
 from ...checks import choice
+from ...engine.kernels import group_kernels
 from ...errors import InputError
 from ...groups import rpy, so3
-from ...groups.arrays import Array
+from ...groups.arrays import Array, map_kernel
 
 RotationKind = Literal["rotation_vector", "quaternion_wxyz", "rpy"]
 KINDS: tuple[RotationKind, ...] = get_args(RotationKind)
@@ -58,14 +59,8 @@ def rotation_numbers(kind: RotationKind) -> RotationNumbers:
 
 
 def quaternion_wxyz(R: Array) -> Array:
-    """(w, x, y, z) from the logarithm, which has the right branch and all its digits at half a turn
-    too.
-    """
-    w = so3.log(R)
-    half = 0.5 * np.linalg.norm(w, axis=-1, keepdims=True)
-    cosine = np.maximum(np.cos(half), 0.0)  # at half a turn rounding may take |w| past pi by a bit
-    v = 0.5 * np.sinc(half / np.pi) * w  # sin(x)/x, as NumPy has it for pi x
-    return np.concatenate([cosine, v], axis=-1)
+    """Unit quaternions (w, x, y, z), w >= 0, right to their last digits at half a turn too."""
+    return map_kernel(group_kernels.so3_quaternion, 2, (4,), R) + 0.0
 
 
 def _vector_rates(R: Array) -> Array:

@@ -10,6 +10,8 @@ from ..chain_data import ChainData
 from ..geometry import hp, idealise, other_frames
 from ..geometry.hp import HPForm
 from ..geometry.idealise import Idealised
+from ..readings import coupled
+from ..readings.statements import Statements
 
 
 class ChainFrames(ChainData):
@@ -127,6 +129,51 @@ class ChainFrames(ChainData):
         Section II.
         """
         return other_frames.rezeroed(self, q0)
+
+    def coupled(self, coupling: Statements) -> Self:
+        """Chain whose coordinates are readings that several joints follow: f'(r) = f(K r).
+
+        On arms with a parallel linkage, and on all of Fanuc's, the controller displays the angle of
+        joint 3 against the ground: q3 = J2 + J3. A statement gives the value of a joint as a sum of
+        readings of the same names; a joint without one has its own reading. C' = C K.
+
+        Parameters
+        ----------
+        coupling : str or sequence of str
+            Statements such as "J3 = J2 + J3" or "J6 = J6 - 1/80 J5": names, with numbers or
+            fractions before them, + and -.
+
+        Returns
+        -------
+        chain : Chain
+            Chain of the same arm with coordinates of the same names. `fk`, Jacobians, `pk.ik` and
+            `pk.calibrate` take or give readings. Limits are those that the joints' limits leave to
+            the readings one by one: of readings within them a joint may still be beyond its own.
+            Velocity limits are such that it never is: a joint's is shared by what it follows.
+
+        Raises
+        ------
+        InputError
+            For what is no such statement, a name that is unknown or said twice, or readings that do
+            not determine the joints.
+
+        Notes
+        -----
+        Accuracy: C K to its rounding (tests/model/readings/test_coupled.py). Source: none, the
+        chain rule.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import poekin as pk
+        >>> arm = pk.load("puma560").chain()
+        >>> fanuc = arm.coupled("joint3 = joint2 + joint3")
+        >>> readings = np.array([0.0, 0.5, -0.2, 0.0, 0.0, 0.0])
+        >>> joints = np.array([0.0, 0.5, 0.3, 0.0, 0.0, 0.0])
+        >>> bool(np.allclose(fanuc.fk(readings), arm.fk(joints)))
+        True
+        """
+        return coupled.coupled(self, coupling)
 
     def idealised(self, tol: float) -> Idealised[Self]:
         """Chain with its geometry made exact where it is so within a tolerance.

@@ -33,6 +33,8 @@ def all_poses(
         lambda: np.array([joint.kind != "prismatic" for joint in joints], float),
         f"robot {quote(parts.name)}",
     )
+    if parts.readings is not None:
+        values = values @ parts.readings.T
     free = _free_poses(parts, {} if poses is None else poses)
     batch = _common_batch(parts, values.shape[:-1], free)
     count = math.prod(batch)  # said, not inferred: -1 means nothing where an axis is empty

@@ -10,7 +10,7 @@ from ...algebra import IDENTITY, adjoint, compose, inverse
 from ...errors import InputError, ModelError, join_names, quote
 from ..chain_data import ChainOptions
 from ..joint import FREE
-from .coupling import shared_limits
+from .coupling import shared_limits, shared_velocity_limits
 from .robot_parts import RobotParts, link_number
 from .tree import path
 
@@ -77,12 +77,14 @@ def _options(
     used = list(dict.fromkeys(followed[followed >= 0].tolist()))
     names = tuple(parts.joints[j].name for j in moving)
     q_names = tuple(whole.q_names[k] for k in used)
+    velocities = np.array([parts.joints[j].velocity for j in moving])
     options: ChainOptions = {
         "joint_names": names,
         "q_names": q_names,
         "limits": shared_limits(whole, parts.bounds, moving)[0][used],
         "base": base,
         "tip": tip,
+        "velocity_limits": shared_velocity_limits(whole, velocities, moving)[used],
         "pitches": [parts.joints[j].pitch for j in moving],
     }
     if names == q_names:

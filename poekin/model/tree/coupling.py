@@ -15,6 +15,9 @@ from ..checks import read_only
 from ..joint import FREE, MOVING, Joint, Mimic
 from ..provenance import Source, warn
 
+SLOWEST = float(np.finfo(np.float64).smallest_subnormal)
+"""Velocity limit [rad/s or m/s] in place of a quotient that is too small to be a number."""
+
 
 class Coupling(NamedTuple):
     """x_j = ratio_j q_{coordinate_j} + shift_j for every joint j of a robot.
@@ -92,6 +95,22 @@ def shared_limits(
     torn = (lower >= upper) & ((lower != own[:, 0]) | (upper != own[:, 1]))
     limits = np.where(torn[:, None], own, np.stack([lower, upper], axis=1))
     return limits, np.flatnonzero(torn)
+
+
+def shared_velocity_limits(
+    coupling: Coupling,
+    velocities: np.ndarray,
+    joints: np.ndarray,
+) -> np.ndarray:
+    """Greatest |dq| (m,) that keeps each of `joints` (numbers) within its own of `velocities`."""
+    shared = np.full(len(coupling.master), np.inf)
+    follows = (coupling.coordinate[joints] >= 0) & (coupling.ratio[joints] != 0)
+    followers = joints[follows]
+    with np.errstate(over="ignore"):  # a velocity beyond the largest number is no bound
+        own = velocities[follows] / np.abs(coupling.ratio[followers])
+    own = np.maximum(own, SLOWEST)
+    np.minimum.at(shared, coupling.coordinate[followers], own)
+    return shared
 
 
 def warn_of_torn_limits(

@@ -11,6 +11,8 @@ from ...errors import ModelError, UnknownName, quote, safe_repr, suggest
 from ..checks import read_only
 from ..joint import Joint
 from ..provenance import Source
+from ..readings.coupled import reading_limits
+from ..readings.statements import Statements, parse_statements
 from .coupling import Coupling, coupling_of, shared_limits
 from .tree import Tree, tree_of
 from .tree_arrays import Layout, layout_of
@@ -21,7 +23,8 @@ class RobotParts(NamedTuple):
 
     `place` is what messages name: the source, or the robot itself. `numbers` are those of the
     links; `bounds` (J, 2) are the joints' own, `limits` (m, 2) those of the coordinates, and `torn`
-    lists the coordinates whose followers' bounds leave nothing in common.
+    lists the coordinates whose followers' bounds leave nothing in common. `readings` (m, m) is K of
+    q = K r where the robot's coordinates are coupled readings r, else None.
     """
 
     name: str
@@ -35,6 +38,7 @@ class RobotParts(NamedTuple):
     limits: np.ndarray
     torn: np.ndarray
     layout: Layout
+    readings: np.ndarray | None = None
 
 
 def make_parts(
@@ -42,6 +46,7 @@ def make_parts(
     links: Iterable[str],
     joints: Iterable[Joint],
     source: Source | None,
+    statements: Statements = (),
 ) -> RobotParts:
     """Parts of a robot. Raises: ModelError where links and joints make no tree."""
     all_links = _items(links, "links", name)
@@ -56,6 +61,10 @@ def make_parts(
     coupling = coupling_of(all_joints, place)
     bounds = np.array([joint.limits for joint in all_joints]).reshape(len(all_joints), 2)
     limits, torn = shared_limits(coupling, bounds, np.arange(len(all_joints)))
+    readings = None
+    if statements:
+        readings = read_only(parse_statements(statements, coupling.q_names))
+        limits = reading_limits(readings, limits)
     return RobotParts(
         str(name),
         all_links,
@@ -68,6 +77,7 @@ def make_parts(
         read_only(limits),
         torn,
         layout_of(tree, all_joints, coupling),
+        readings,
     )
 
 

@@ -1,5 +1,6 @@
 """Calibration: measurements in, the arm's true screws out, with what can be known and how well."""
 
+from .apply import apply
 from .calibrate import calibrate
 from .calibration import Calibration, load
 from .design.choice import Choice, DesignMetrics
@@ -7,6 +8,8 @@ from .design.choose import choose_poses
 from .design.observability import ObservabilityIndices, observability_indices
 from .diagnostics.cross_validation import CrossValidation
 from .diagnostics.identification import Identification, identify
+from .exact.from_fk import from_fk
+from .exact.from_fk_result import FromFk, PoseErrors
 from .fit.noise import NoiseEstimate
 from .measurements.data import read, write
 from .measurements.measurement import Measurement
@@ -25,6 +28,7 @@ __all__ = [
     "Distances",
     "EyeInHand",
     "EyeToHand",
+    "FromFk",
     "Identification",
     "Measurement",
     "NoiseEstimate",
@@ -32,11 +36,14 @@ __all__ = [
     "Outlier",
     "Parameter",
     "Points",
+    "PoseErrors",
     "Poses",
     "Residuals",
     "Simulated",
+    "apply",
     "calibrate",
     "choose_poses",
+    "from_fk",
     "identify",
     "load",
     "observability_indices",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, overload
 
 from ...analysis.compare.compare import compare
 from ...analysis.compare.comparison import Comparison
@@ -12,7 +12,7 @@ from ...formats import dh
 from ...formats.dh.from_chain import FromChain
 from ...formats.relink import relinked
 from ...formats.text.atomic_write import write_whole
-from ...formats.urdf_text import to_urdf
+from ...formats.urdf_text import Into, to_urdf
 from ...groups.arrays import Array
 from ...model.robot import Robot
 from .report import document, html_report, summary, toml_io
@@ -137,25 +137,37 @@ class Calibration(CalibrationData):
         """
         return relinked(robot, self.chain, base=self.chain.base, tip=self.chain.tip)
 
-    def to_urdf(self, robot: Robot) -> str:
+    @overload
+    def to_urdf(self, robot: Robot, *, into: None = None) -> str: ...
+
+    @overload
+    def to_urdf(self, robot: Robot, *, into: Into) -> bytes: ...
+
+    def to_urdf(self, robot: Robot, *, into: Into | None = None) -> str | bytes:
         """URDF of `to_robot(robot)`.
 
         Parameters
         ----------
         robot : Robot
             The nominal robot.
+        into : str or os.PathLike or bytes or Robot, optional
+            Its own URDF, in whose text only origins and axes are changed: as of `pk.to_urdf`, so
+            `robot` itself where it was read from one.
 
         Returns
         -------
-        text : str
-            The URDF.
+        text : str or bytes
+            The URDF; the content of the edited file with `into`.
 
         Raises
         ------
-        ModelError, UnknownName
+        ModelError, UnknownName, InputError
             As `to_robot` and `pk.to_urdf`.
         """
-        return to_urdf(self.to_robot(robot))
+        calibrated = self.to_robot(robot)
+        if into is None:
+            return to_urdf(calibrated)
+        return to_urdf(calibrated, into=into)
 
     def to_dh(self, convention: dh.Convention = "standard") -> FromChain:
         """Calibrated arm as a DH table, with error, bound and warnings.

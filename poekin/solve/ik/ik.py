@@ -38,8 +38,8 @@ def ik(  # noqa: PLR0913 - options by keyword
 ) -> Solution:
     """Joint coordinates q with f(q) = T, for one target pose or a batch.
 
-    Damped least squares over the arm's own machine code, from q0 or from random starts within the
-    limits, again and again until the true pose error is within both tolerances. A coordinate stays
+    Damped least squares over the arm's own machine code, from q0 or near the middle of the limits,
+    then from random starts within them, until the true pose error is within both tolerances. A coordinate stays
     within its limits at every step. An arm may have any number of coordinates: what it can reach is
     solved, and else q is the nearest that was found.
 
@@ -51,7 +51,8 @@ def ik(  # noqa: PLR0913 - options by keyword
         Target poses of the tip in the base frame, m.
     q0 : (m,) or (..., m) array_like or dict, optional
         Start of the first try, rad or m; outside the limits it is moved to them. Without it the
-        first try begins at `nearest_to`, or else at random.
+        first try begins at `nearest_to`, or else near the middle of the limits, 0 where there are
+        none: near solutions are found first.
     task : {"pose", "position", "rotation", "direction", "planar"}, default "pose"
         Part of the target to be reached. "direction" is the position and the direction of the
         tool's `axis`, for arms of five joints; "planar" the position in the plane in which the arm

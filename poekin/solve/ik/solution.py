@@ -20,6 +20,9 @@ BAD_TARGET = "bad target"
 REASONS = (SOLVED, UNREACHABLE, LIMITS, ITERATIONS, BAD_TARGET)
 """All reasons, as `Solution.reason` explains them."""
 
+FAR = 30.0
+"""Distance beyond the reach, m, that no tool goes to, and one in mm taken for m has."""
+
 Names = tuple[str, ...]
 
 
@@ -115,6 +118,11 @@ class Solution(Result):
             return f"solvable without them, in the way are those of {names}; within them "
         if reason == ITERATIONS:
             return "the nearest try was still moving when they ended; "
+        if beyond > FAR:
+            return (
+                f"the target is {beyond:.4g} m beyond the arm's reach, as one in millimetres would"
+                " be; poses are in m (of files in mm, --mm says so); "
+            )
         if beyond > 0:
             return f"the target is farther than the arm's reach by {1e3 * beyond:.4g} mm; "
         return ""

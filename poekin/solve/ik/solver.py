@@ -35,7 +35,10 @@ def solve(
     if not (rows.flags.writeable and rows.flags.aligned):  # the kernels take no others
         rows = rows.copy()
     count = len(rows)
-    first = first_tries(problem.units, problem.domain, batch, count, q0)
+    if q0 is None and nearest_to is None:
+        first = problem.domain.middle(count)
+    else:
+        first = first_tries(problem.units, problem.domain, batch, count, q0)
     near = None
     if nearest_to is not None:
         near = for_targets(problem.given, batch, count, nearest_to, "nearest_to")

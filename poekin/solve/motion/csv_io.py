@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, ShapeError, safe_repr
-from ...formats.text import csv_rows, pose_rows
+from ...formats.poses import pose_rows
+from ...formats.poses.layout import PoseFormat, QuaternionOrder, layout
+from ...formats.text import csv_rows
 from ...formats.text.atomic_write import write_whole
-from ...formats.text.pose_rows import PoseFormat, QuaternionOrder
+from ...formats.text.csv_header import Columns
 from ...groups.arrays import Array, numbers, poses
 from ...model.chain import Chain
 
@@ -59,9 +61,10 @@ def read_poses(
     -----
     Source: none, a format of poekin's own.
     """
-    names = pose_rows.columns(format, quaternion)
-    rows, lines, where = _read(path, names, "column")
-    return pose_rows.to_poses(rows, format, quaternion, lambda i: f"{where}:{lines[i]}")
+    chosen = layout(format, quaternion)
+    columns = Columns(chosen.columns, "column", chosen.units)
+    rows, lines, where = _read(path, columns)
+    return pose_rows.to_poses(rows, chosen, lambda i: f"{where}:{lines[i]}")
 
 
 def write_poses(
@@ -108,15 +111,16 @@ def write_poses(
     T = poses(T)
     if T.ndim != 3:
         raise ShapeError(f"T: expected poses (N, 4, 4), got {T.shape}")
-    header = pose_rows.columns(format, quaternion)
-    write_whole(path, csv_rows.text(header, pose_rows.to_rows(T, format, quaternion)).encode())
+    chosen = layout(format, quaternion)
+    write_whole(path, csv_rows.text(chosen.columns, pose_rows.to_rows(T, chosen)).encode())
 
 
 def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array | None]:
     """Configurations, and times where it has them, from a CSV file with one of them a line.
 
     A first line may name the columns, in any order; with a further column `time`, the first or in
-    any place that the header says, there are times.
+    any place that the header says, there are times. Columns NAME_velocity, as a `Trajectory` has
+    them, are passed over.
 
     Parameters
     ----------
@@ -145,9 +149,11 @@ def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array 
     -----
     Source: none, a format of poekin's own.
     """
+    units = joint_units(names)
     names = _names(names)
     more = () if TIME in names else (TIME,)
-    rows, _, _ = _read(path, names, "coordinate", more)
+    besides = velocity_columns(names)
+    rows, _, _ = _read(path, Columns(names, "coordinate", units, besides=besides, first=more))
     if rows.shape[1] > len(names):
         return rows[:, 1:], rows[:, 0]
     return rows, None
@@ -194,6 +200,17 @@ def write_joints(
     write_whole(path, csv_rows.text(names, rows).encode())
 
 
+def velocity_columns(names: Sequence[str]) -> tuple[str, ...]:
+    """Names of the columns with the rates of coordinates: NAME_velocity, none of them a name."""
+    columns = []
+    for name in names:
+        column = f"{name}_velocity"
+        while column in names:
+            column += "_"
+        columns.append(column)
+    return tuple(columns)
+
+
 def joints_over_time(
     q: ArrayLike,
     times: ArrayLike | None,
@@ -221,11 +238,13 @@ def _names(names: Any) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _read(
-    path: Path,
-    names: Sequence[str],
-    what: str,
-    first: Sequence[str] = (),
-) -> tuple[Array, np.ndarray, str]:
+def joint_units(names: Any) -> tuple[str, ...]:
+    """Units of a chain's coordinates; of names alone, none are known."""
+    if not isinstance(names, Chain):
+        return ()
+    return tuple("rad" if names.is_angle(k) else "m" for k in range(names.dof))
+
+
+def _read(path: Path, columns: Columns) -> tuple[Array, np.ndarray, str]:
     with csv_rows.opened(path) as (stream, where, _):
-        return *csv_rows.read(stream, names, where, what, first=first), where
+        return *csv_rows.read(stream, columns, where), where

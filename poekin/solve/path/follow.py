@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
-from ...model.coordinates import coordinates
 from ...model.kinematics.arm import Arm, compiled
 from ...results import Progress
 from ..ik.diagnosis import KIND
@@ -20,6 +19,7 @@ from ..ik.joint_domain import first_tries
 from ..ik.solution import BAD_TARGET, SOLVED, Names, Solution
 from ..ik.task import TaskName, TaskNames, targets
 from ..joint_units import bounds
+from ..per_coordinate import per_coordinate
 from .follower import Follower
 from .path_result import PathResult
 
@@ -190,20 +190,6 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
         tuple(hit),
         tuple(tasks) if problem.underactuated else (),
     )
-
-
-def per_coordinate(value: Any, chain: Chain, what: str) -> Array:
-    """A positive number for each coordinate. Raises: InputError, ShapeError, UnknownName."""
-    if not isinstance(value, Mapping) and numbers(value, what).ndim == 0:
-        value = np.full(chain.dof, float(value))
-    array = coordinates(value, chain.q_names, what)
-    if array.ndim != 1:
-        raise ShapeError(
-            f"{what}: expected one number, or one a coordinate ({chain.dof},), got shape {array.shape}"
-        )
-    if not (array > 0).all():
-        raise InputError(f"{what}: expected positive numbers, got {safe_repr(array.tolist())}")
-    return np.ascontiguousarray(array)
 
 
 def _timing(

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ...analysis.dexterity.jacobian_part import scaled, svd
 from ...analysis.dexterity.singularity import singularity
-from ...errors import quote
+from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...results import Result
@@ -19,7 +20,9 @@ from ..ik.solution import BAD_TARGET, Solution
 from ..ik.task import Task
 from ..joint_units import joint_units
 from ..motion.csv_io import Path, write_joints
+from ..motion.parameterization.time_optimal import time_optimal
 from ..motion.plot import plot_joints
+from ..motion.trajectory.trajectory import Trajectory
 from .path_interval import PathInterval, intervals
 
 NEAR_SINGULAR = 1e-2
@@ -204,6 +207,33 @@ class PathResult(Result):
         """
         write_joints(path, self.q, self.chain, times=self.times)
 
+    def time_optimal(self, acceleration: Any, *, speed: Any = None) -> Trajectory:
+        """Fastest trajectory through q within limits, as `motion.time_optimal` finds it.
+
+        Parameters
+        ----------
+        acceleration : float, (m,) array_like or dict
+            Largest |ddq| of each coordinate, per s².
+        speed : float, (m,) array_like or dict, optional
+            Largest |dq| of each coordinate, per s; by default `Chain.velocity_limits`.
+
+        Returns
+        -------
+        trajectory : Trajectory
+            Times, q and dq.
+
+        Raises
+        ------
+        InputError
+            If a pose is not reached, the branch changes, or `motion.time_optimal` refuses.
+        ShapeError, UnknownName
+            As `motion.time_optimal`.
+        """
+        fault = next(iter((*self._failures(), *map(self._switch, self.branch_switches))), "")
+        if fault:
+            raise InputError(f"time_optimal: expected a path without a break; {fault}")
+        return time_optimal(self.chain, self.q, acceleration=acceleration, speed=speed)
+
     def plot(self, path: Path | None = None) -> str:
         """Plot of the joints over time, as `motion.plot_joints` draws it.
 
@@ -321,6 +351,7 @@ class PathResult(Result):
             offset=chain.offset + chain.coupling @ np.where(free, 0.0, self._locked),
             q_names=[name for name in chain.q_names if name not in self.lock],
             limits=chain.limits[free],
+            velocity_limits=chain.velocity_limits[free],
         )
 
     def _above(

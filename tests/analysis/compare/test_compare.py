@@ -91,7 +91,7 @@ def test_two_conventions_of_one_arm_are_equal_and_the_alignment_maps_one_onto_th
         chain,
         Chain.from_space(other.screws * signs[:, None], other.home @ se3.exp(rng.normal(size=6))),
     )
-    assert result.equal, result.verdict
+    assert result.same_arm, result.verdict
     assert result.after is not None
     assert result.after.worst_position < 2e-4
     assert result.after.worst_rotation < np.radians(0.02)
@@ -152,9 +152,10 @@ def test_of_several_changes_no_other_joint_is_blamed(kinds, changes, swapped):
 def test_a_zero_offset_of_an_end_joint_is_a_turned_base_or_tool_and_both_readings_are_given():
     chain = arm("ur5e")
     first, last = (
-        compare(chain, chain.rezeroed(q)) for q in ([0.1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0.2])
+        compare(chain, chain.rezeroed(q).replace(limits=chain.limits))
+        for q in ([0.1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0.2])
     )
-    assert (first.equal, first.differing, last.equal, last.differing) == (True, (), True, ())
+    assert (first.same_arm, first.differing, last.same_arm, last.differing) == (True, (), True, ())
     assert "zero offset of -5.73°" in first.alternatives[0]
     assert "joint 1" in first.alternatives[0]
     assert "zero offset of -11.46°" in last.alternatives[0]
@@ -185,40 +186,49 @@ def test_the_extra_joint_is_named_where_one_can_be_dropped():
     )
     for pair, side in (((chain, longer), "b"), ((longer, chain), "a")):
         result = compare(*pair)
-        assert (result.equal, result.unmatched_joints, result.differing) == (
+        assert (result.same_arm, result.unmatched_joints, result.differing) == (
             False,
             (side, "extra"),
             (),
         )
         assert "'extra'" in result.verdict
     lost = compare(arm("ur5e"), chain)
-    assert (lost.equal, lost.unmatched_joints, lost.joints, lost.base) == (False, None, (), None)
+    assert (lost.same_arm, lost.unmatched_joints, lost.joints, lost.base) == (False, None, (), None)
     assert "6 joints against 7" in lost.verdict
     json.loads(lost.to_json())
 
 
-def test_strict_aligns_nothing():
+def test_strict_shows_the_joints_as_they_stand_and_comes_to_the_same_verdict():
     chain = arm("ur5e")
+    rng = np.random.default_rng(0)
     assert compare(chain, chain, strict=True).equal
-    base = compare(chain, chain.rebased(se3.exp([0, 0, 0, 1e-3, 0, 0])), strict=True)
-    assert not base.equal
-    tool = compare(chain, chain.retooled(se3.exp([0, 0, 0, 1e-3, 0, 0])), strict=True)
-    assert (tool.equal, tool.differing) == (False, ())
-    assert "home pose" in tool.verdict
-    assert not compare(
-        chain, planted(chain, "flip", 2, np.random.default_rng(0)), strict=True
-    ).equal
-    assert not compare(
-        chain, planted(chain, "zero", 2, np.random.default_rng(0)), strict=True
-    ).equal
+    others = {
+        "base": chain.rebased(se3.exp([0, 0, 0, 1e-3, 0, 0])),
+        "tool": chain.retooled(se3.exp([0, 0, 0, 1e-3, 0, 0])),
+        "sign of q": planted(chain, "flip", 2, rng),
+        "zero": planted(chain, "zero", 2, rng),
+    }
+    for word, other in others.items():
+        strict = compare(chain, other, strict=True)
+        aligned = compare(chain, other)
+        assert (strict.outcome, aligned.outcome) == ("conventions", "conventions")
+        assert word in strict.verdict
+        assert strict.verdict == aligned.verdict.replace("aligned: ", "")
+        assert (strict.tool, strict.after) == (None, None)
+    (zero, *behind) = compare(chain, others["zero"], strict=True).differing
+    assert (zero.number, zero.axis_differs, zero.zero_differs) == (4, True, False)
+    assert [joint.number for joint in behind] == [5, 6]
 
 
-def test_limits_are_compared_in_the_other_models_zero_and_direction_and_decide_nothing():
+def test_limits_are_compared_in_the_other_models_zero_and_direction():
     chain = arm("ur5e")
     limits = chain.limits.copy()
     limits[2, 1] -= np.radians(10)
-    result = compare(chain, Chain.from_space(chain.screws, chain.home, limits=limits))
-    assert result.equal
+    other = chain.replace(limits=limits)
+    result = compare(chain, other)
+    assert (result.outcome, result.same_arm) == ("differ", True)
+    assert result.findings == ("joint 3 ('elbow_joint') has its upper limit 10° lower in model b",)
+    assert compare(chain, other, same=("base", "tool", "zeros", "directions")).equal
     assert result.joints[2].limits == pytest.approx((0, -np.radians(10)))
     flipped = compare(chain, planted(chain, "flip", 2, np.random.default_rng(0)))
     assert flipped.joints[2].limits == pytest.approx((0, 0))
@@ -229,7 +239,7 @@ def test_another_kind_of_joint_is_said():
     S = chain.screws.copy()
     S[2] = screw.prismatic(S[2, :3])
     result = compare(chain, Chain.from_space(S, chain.home))
-    assert (result.equal, [j.number for j in result.differing]) == (False, [3])
+    assert (result.same_arm, [j.number for j in result.differing]) == (False, [3])
     assert "is revolute in one model and prismatic in the other" in result.verdict
     assert "direction" not in result.verdict
 
@@ -251,7 +261,7 @@ def test_one_link_of_another_length_or_twist_is_named_and_no_zero_offset_is_made
     rows = list(table.rows)
     rows[k] = replace(rows[k], **{column: getattr(rows[k], column) + 0.005})
     result = compare(dh.to_chain(table), dh.to_chain(dh.Table(table.convention, rows)), samples=5)
-    assert not result.equal
+    assert not result.same_arm
     assert f"the link between joint {k + 1} (" in result.verdict
     assert "zero position" not in result.verdict
     size = "5 mm" if column == "a" else "0.2865°"
@@ -287,17 +297,17 @@ def test_joints_that_follow_others_differently_differ_though_all_axes_agree():
         matrix[2, 1] = r
     for one, other in ((1.0, -1.0), (1.0, 2.0)):
         result = compare(_coupled(ratio[one]), _coupled(ratio[other]), samples=1)
-        assert (result.equal, [j.number for j in result.differing]) == (False, [3])
+        assert (result.same_arm, [j.number for j in result.differing]) == (False, [3])
         assert (
             f"follows {one:g} × 'shoulder_lift_joint' in one model and follows {other:g} × "
             in result.verdict
         )
-        assert compare(_coupled(ratio[one]), _coupled(ratio[one]), samples=1).equal
+        assert compare(_coupled(ratio[one]), _coupled(ratio[one]), samples=1).same_arm
         assert not compare(
             _coupled(ratio[one]), _coupled(ratio[other]), samples=1, strict=True
-        ).equal
+        ).same_arm
     alone = compare(_coupled(ratio[1.0]), _coupled(np.eye(6)), samples=1)
-    assert not alone.equal
+    assert not alone.same_arm
     assert "and moves by itself in the other" in alone.verdict
     # A flipped joint that follows by the opposite ratio moves as before.
     chain = _coupled(ratio[2.0])
@@ -307,28 +317,81 @@ def test_joints_that_follow_others_differently_differ_though_all_axes_agree():
         S, chain.home, joint_names=chain.joint_names, coupling=C, q_names=chain.q_names
     )
     result = compare(chain, turned, samples=1)
-    assert result.equal
+    assert result.same_arm
     assert not any(j.coupling_differs for j in result.joints)
+
+
+GROUND = np.array([[1.0, 0, 0], [0, 1, 0], [0, 1, 1]])
+"""Joint 3 is read against the ground: x3 = q2 + q3."""
+
+
+def _fanuc(ratio=1.0, half_range=1.0):
+    chain = arm("ur5e")
+    C = np.eye(6)
+    C[:3, :3] = GROUND
+    C[2, 1] = ratio
+    limits = np.tile([-2.0, 2.0], (6, 1))
+    limits[2] = [-half_range, half_range]
+    return chain.replace(coupling=C, limits=limits)
+
+
+def test_the_limits_of_a_coupled_reading_count():
+    here = _fanuc()
+    result = compare(here, _fanuc(half_range=0.5), samples=1)
+    assert (result.outcome, result.same_arm) == ("differ", True)
+    assert [text.startswith("joint 3 (") for text in result.findings] == [True]
+    # Another zero of joint 2 moves that of joint 3, and both limits with it.
+    moved = here.rezeroed([0, 0.1, 0, 0, 0, 0])
+    result = compare(here, moved, samples=1)
+    assert (result.outcome, [j.limits for j in result.joints]) == (
+        "conventions",
+        [pytest.approx((0, 0), abs=1e-12)] * 6,
+    )
+
+
+def test_the_poses_as_they_stand_are_those_of_the_same_readings():
+    one, other = _fanuc(), _fanuc(-1.0)
+    result = compare(one, other, samples=10)
+    q = one.random(0, 10)
+    apart = np.linalg.norm(one.fk(q)[:, :3, 3] - other.fk(q)[:, :3, 3], axis=1)
+    assert result.before is not None
+    assert result.before.worst_position == pytest.approx(apart.max(), rel=1e-12)
+    assert result.after is not None
+    assert result.after.worst_position < 1e-12
+
+
+def test_a_joint_that_turns_in_one_model_and_slides_in_the_other_has_no_limits_to_compare():
+    screws = arm("ur5e").screws.copy()
+    screws[2] = [0, 0, 0, 0, 0, 1]
+    limits = np.tile([-2.0, 2.0], (6, 1))
+    one = arm("ur5e").replace(limits=limits)
+    limits[2] = [0.0, 0.5]
+    other = one.replace(screws=screws, limits=limits)
+    result = compare(one, other, samples=1)
+    third = result.joints[2]
+    assert np.isnan([*third.limits, *third.limit_numbers]).all()
+    assert third.axis_differs
+    assert not any("limit" in text for text in result.findings)
 
 
 def test_a_ratio_to_a_coordinate_whose_joint_is_not_on_the_chain_is_compared():
     scaled = np.eye(6)
     scaled[4, 4] = 2.0
     result = compare(_coupled(np.eye(6)), _coupled(scaled), samples=1)
-    assert (result.equal, [j.number for j in result.differing]) == (False, [5])
+    assert (result.same_arm, [j.number for j in result.differing]) == (False, [5])
 
 
 def test_tolerances_are_metres_and_radians():
     chain, rng = arm("random 6b"), np.random.default_rng(0)
-    assert compare(chain, planted(chain, "shift", 2, rng), tol_position=1.01e-3).equal
-    assert not compare(chain, planted(chain, "shift", 2, rng), tol_position=1e-4).equal
+    assert compare(chain, planted(chain, "shift", 2, rng), tol_position=1.01e-3).same_arm
+    assert not compare(chain, planted(chain, "shift", 2, rng), tol_position=1e-4).same_arm
 
 
 def test_chains_without_joints_and_with_one_compare():
     none = Chain.from_space(np.zeros((0, 6)), np.eye(4))
-    assert compare(none, none.retooled(se3.exp([1, 0, 0, 1, 0, 0]))).equal
+    assert compare(none, none.retooled(se3.exp([1, 0, 0, 1, 0, 0]))).same_arm
     one = Chain.from_space([screw.revolute([0, 0, 1], [1, 0, 0])], np.eye(4))
-    assert compare(one, one.rebased(se3.exp([1, 2, 0, 1, 0, 0]))).equal
+    assert compare(one, one.rebased(se3.exp([1, 2, 0, 1, 0, 0]))).same_arm
 
 
 def test_json_is_plain_and_complete():
@@ -347,6 +410,7 @@ def test_json_is_plain_and_complete():
         {"tol_rotation": -1},
         {"tol_position": float("nan")},
         {"samples": 0},
+        {"seed": -1},
         {"tol_rotation": "x"},
     ],
 )
@@ -389,16 +453,16 @@ def test_what_cannot_be_compared_is_said_whole(options: dict[str, Any], message)
     assert str(caught.value) == message
 
 
-REVERSED = "joint 3 ('elbow_joint') has the sign of q flipped"
+REVERSED = "joint 3 ('elbow_joint') has the sign of q flipped: 308 mm at the tool"
 IN_MM = "the models differ; lengths of model b are 1000 times those of model a (millimetres against metres?)"
+OTHER = "the models are the same arm in other conventions"
 
 
 @pytest.mark.parametrize("change, aligned, strict", [
-    ("nothing", "the models are the same", "the models are the same as they stand"),
-    ("direction", f"the models are the same arm, up to free choices; {REVERSED}", f"the models differ; {REVERSED}"),
+    ("nothing", "the models are the same", "the models are the same"),
+    ("direction", f"{OTHER}; {REVERSED}", f"{OTHER}; {REVERSED}"),
     ("unit", IN_MM, IN_MM),
-    ("tool", "the models are the same arm, up to free choices; aligned: the tool frame is moved by 100 mm",
-     "the models differ; the home pose's frame is moved by 100 mm"),
+    ("tool", f"{OTHER}; aligned: the tool frame is moved by 100 mm", f"{OTHER}; the tool frame is moved by 100 mm"),
 ])  # fmt: skip
 def test_a_verdict_says_what_differs_and_nothing_else(change, aligned, strict):
     chain = arm("ur5e")
@@ -410,7 +474,7 @@ def test_a_verdict_says_what_differs_and_nothing_else(change, aligned, strict):
         home[:3, 3] *= 1e3
     if change == "tool":
         home = home @ se3.exp([0, 0, 0, 0, 0, 0.1])
-    other = Chain.from_space(S, home, joint_names=chain.joint_names)
+    other = chain.replace(screws=S, home=home)
     assert compare(chain, other, samples=1).verdict == aligned
     assert compare(chain, other, samples=1, strict=True).verdict == strict
 
@@ -418,14 +482,15 @@ def test_a_verdict_says_what_differs_and_nothing_else(change, aligned, strict):
 @pytest.mark.parametrize("numbers, verdict", [
     ((3, 5), "the models differ: 3 joints against 5, and no two joints can be dropped so that the rest agree"),
     ((5, 4), "the models differ: 5 joints against 4, and no one joint can be dropped so that the rest agree"),
-    ((6, 3), "the models differ: 6 joints against 3, and more than two must be dropped so that the rest agree"),
+    ((6, 3), "the models differ: 6 joints against 3, and no 3 joints at the ends can be dropped so that the rest"
+             " agree"),
 ])  # fmt: skip
 def test_numbers_of_joints_that_do_not_fit_are_said_whole(numbers, verdict):
     a, b = (random_arm(k, ("revolute",) * n) for k, n in enumerate(numbers))
     found = compare(a, b, samples=7, seed=3, tol_position=2e-5, tol_rotation=5e-5)
     assert (
         found.verdict,
-        found.equal,
+        found.same_arm,
         found.joints,
         found.unmatched_joints,
         found.alternatives,

@@ -43,7 +43,7 @@ def test_one_or_two_extra_joints_are_named_wherever_they_are(seed, places, swapp
     moved = other.rebased(se3.exp(rng.normal(size=6))).retooled(se3.exp(rng.normal(size=6)))
     result = compare(moved, chain, samples=5) if swapped else compare(chain, moved, samples=5)
     assert result.unmatched_joints == ("a" if swapped else "b", *added)
-    assert (result.equal, result.differing) == (False, ())
+    assert (result.same_arm, result.differing) == (False, ())
     assert all(f"'{name}'" in result.verdict for name in added)
     assert f"{'two joints' if len(added) == 2 else 'one joint'} more" in result.verdict
     assert result.after is not None
@@ -173,11 +173,11 @@ def test_of_parallel_joints_that_fit_alike_rounding_does_not_choose():
 
 
 @pytest.mark.parametrize(
-    "joints, words", [(6, "no one joint"), (5, "no two joints"), (4, "more than two must")]
+    "joints, words", [(6, "no one joint"), (5, "no two joints"), (4, "no 3 joints at the ends")]
 )
 def test_where_no_joints_can_be_dropped_that_is_said(joints, words):
     result = compare(random_arm(1, ("revolute",) * joints), random_arm(2, ("revolute",) * 7))
-    assert (result.equal, result.unmatched_joints, result.joints, result.base) == (
+    assert (result.same_arm, result.unmatched_joints, result.joints, result.base) == (
         False,
         None,
         (),
@@ -208,6 +208,28 @@ def test_the_quick_look_lets_every_pair_of_models_that_agree_pass(seed, wobble):
     assert not unmatched_joints._may_agree(chain, random_arm(seed + 1), TOL)
 
 
+@pytest.mark.parametrize("front, back", [(3, 0), (0, 3), (2, 1), (1, 4)])
+@pytest.mark.parametrize("swapped", [False, True])
+def test_any_number_of_joints_more_at_the_ends_is_named(front, back, swapped):
+    rng = np.random.default_rng(front)
+    chain = random_arm(1, ("revolute",) * 5)
+    rows = [screw.revolute(*rng.normal(size=(2, 3))) for _ in range(front + back)]
+    first = [f"f{k}" for k in range(front)]
+    last = [f"l{k}" for k in range(back)]
+    longer = Chain.from_space(
+        [*rows[:front], *chain.screws, *rows[front:]],
+        chain.home,
+        joint_names=[*first, *chain.joint_names, *last],
+    )
+    pair = (longer, chain) if swapped else (chain, longer)
+    result = compare(*pair, samples=3)
+    assert result.unmatched_joints == ("a" if swapped else "b", *first, *last)
+    assert (result.outcome, result.differing) == ("differ", ())
+    assert f"has {front + back} joints more" in result.findings[0]
+    assert result.after is not None
+    assert result.after.worst_position < 1e-9
+
+
 def bolt(pitch=0.02, sign=1.0):
     """An arm of five joints of which the third is helical."""
     rng = np.random.default_rng(0)
@@ -220,11 +242,11 @@ def test_helical_joints_agree_under_any_convention():
     rng, chain = np.random.default_rng(5), bolt()
     moved = chain.rezeroed(rng.uniform(-1, 1, 5)).rebased(se3.exp(rng.normal(size=6)))
     result = compare(chain, moved.retooled(se3.exp(rng.normal(size=6))))
-    assert result.equal, result.verdict
+    assert result.same_arm, result.verdict
     assert result.after is not None
     assert result.after.worst_position < 2e-4
     flipped = compare(chain, bolt(sign=-1.0))
-    assert (flipped.equal, [j.number for j in flipped.differing if j.reversed]) == (True, [3])
+    assert (flipped.same_arm, [j.number for j in flipped.differing if j.reversed]) == (True, [3])
 
 
 def test_a_zero_offset_of_a_helical_joint_is_named_and_sized():
@@ -245,14 +267,14 @@ def test_a_zero_offset_of_a_helical_joint_is_named_and_sized():
 )
 def test_another_pitch_is_named_and_nothing_else_is_blamed(pitch, words):
     result = compare(bolt(), bolt(pitch))
-    assert (result.equal, [j.number for j in result.differing]) == (False, [3])
+    assert (result.same_arm, [j.number for j in result.differing]) == (False, [3])
     assert "joint 3 ('joint3') " in result.verdict
     assert words in result.verdict
 
 
 def test_a_pitch_that_shows_less_than_the_tolerance_after_a_turn_is_the_same():
-    assert compare(bolt(), bolt(0.02 + 1e-6), tol_position=1e-5).equal
-    assert not compare(bolt(), bolt(0.02 + 2e-6), tol_position=1e-5).equal
+    assert compare(bolt(), bolt(0.02 + 1e-6), tol_position=1e-5).same_arm
+    assert not compare(bolt(), bolt(0.02 + 2e-6), tol_position=1e-5).same_arm
 
 
 @pytest.mark.parametrize("seed", range(4))

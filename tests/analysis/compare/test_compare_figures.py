@@ -140,7 +140,7 @@ def test_neighbouring_zero_offsets_are_two_zero_offsets_and_no_other_link():
     for name in ("ur5e", "random 6a"):
         chain = arm(name)
         result = compare(chain, chain.rezeroed([0, 0.3, 0.4, 0, 0, 0]), samples=1)
-        assert (result.equal, [j.number for j in result.joints if j.zero_differs]) == (
+        assert (result.same_arm, [j.number for j in result.joints if j.zero_differs]) == (
             True,
             [2, 3],
         ), result.verdict

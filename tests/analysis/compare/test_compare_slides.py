@@ -62,7 +62,7 @@ def test_an_arm_on_a_rail_is_the_same_arm_in_other_conventions(name):
         other = in_other_conventions(chain, rng)
         for one, two in ((chain, other), (other, chain)):
             result = compare(one, two, samples=5)
-            assert result.equal, result.verdict
+            assert result.same_arm, result.verdict
             assert result.after is not None
             assert result.after.worst_position < 1e-4
 
@@ -86,7 +86,7 @@ def test_no_slide_far_outside_its_limits_makes_up_for_an_axis_that_is_elsewhere(
         other = in_other_conventions(shifted(chain, k, size), rng)
         for one, two in ((chain, other), (other, chain)):
             result = compare(one, two, samples=5)
-            assert not result.equal, result.verdict
+            assert not result.same_arm, result.verdict
             assert all(joint.unit == "rad" or abs(joint.zero_offset) < 5 for joint in result.joints)
 
 
@@ -102,7 +102,7 @@ def test_a_slide_that_is_tilted_within_tolerance_makes_up_for_no_axis_that_is_el
     )
     for one, two in ((COBRA, moved), (moved, COBRA)):
         result = compare(one, two, samples=5)
-        assert (result.equal, [j.number for j in result.joints if j.axis_differs]) == (
+        assert (result.same_arm, [j.number for j in result.joints if j.axis_differs]) == (
             False,
             [4],
         ), result.verdict

@@ -31,16 +31,19 @@ def test_pose_errors_are_summed_up_in_mm_and_degrees():
     assert str(errors) == "worst 12.3 mm, 2°; mean 1 mm, 0.25°"
 
 
-def test_a_comparison_ends_with_its_verdict_behind_errors_and_other_explanations():
+def test_a_comparison_ends_with_its_outcome_behind_errors_other_explanations_and_what_differs():
     arm = pk.load("ur5e").chain()
-    result = pk.compare(arm, arm.rezeroed([0.1, 0, 0, 0, 0, 0]), samples=3)
-    before, after, equivalent, verdict = str(result).splitlines()
+    zeros = arm.rezeroed([0.1, 0, 0.2, 0, 0, 0]).replace(limits=arm.limits)
+    result = pk.compare(arm, zeros, samples=3)
+    before, after, equivalent, elbow, base, outcome = str(result).splitlines()
     assert before == f"Pose error as they stand: {result.before}"
     assert after == f"Pose error aligned: {result.after}"
     assert equivalent == f"Equivalent: {result.alternatives[0]}"
-    assert verdict == "The" + result.verdict.removeprefix("the")
+    assert (elbow, base) == tuple(text[0].upper() + text[1:] for text in result.findings)
+    assert outcome == "The models are the same arm in other conventions"
+    assert result.verdict == "; ".join([outcome.replace("The", "the"), *result.findings])
     strict = pk.compare(arm, arm, strict=True, samples=1).summary()
-    assert strict.splitlines()[1:] == ["The models are the same as they stand"]
+    assert strict.splitlines()[1:] == ["The models are the same"]
 
 
 def test_the_dict_of_a_comparison_has_all_of_it_in_si():

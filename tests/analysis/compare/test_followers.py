@@ -80,4 +80,28 @@ def test_what_leads_in_one_model_and_follows_in_the_other_differs():
     assert compared([[1, 0], [0, 1], [1e-13, 1]], [[1, 0], [0, 1], [0, 1]], "rrr")[2] == (
         "follows 1 × 'a2'", "follows 1 × 'b2'", False
     )  # fmt: skip
-    assert compared([[1, 0], [1, 1e-8]], [[1, 0], [1, 0]], "rr")[1][0] == ""
+    assert compared([[1, 0], [1, 1e-8]], [[1, 0], [1, 0]], "rr")[1][0] == (
+        "follows 1 × 'a1' + 1e-08 × its coordinate"
+    )
+
+
+def test_a_joint_that_follows_another_beside_its_own_reading_differs_from_one_that_does_not():
+    ground = [[1, 0, 0], [0, 1, 0], [0, 1, 1]]
+    assert compared(ground, np.eye(3), "rrr") == [
+        ("", "", False),
+        ("", "", False),
+        ("follows 1 × 'a2' + 1 × its coordinate", "", True),
+    ]
+    assert not any(differ for _, _, differ in compared(ground, ground, "rrr"))
+    other = [[1, 0, 0], [0, 1, 0], [0, -1, 1]]
+    assert [differ for _, _, differ in compared(ground, other, "rrr")] == [False, False, True]
+
+
+def test_ratios_of_the_second_model_are_said_in_the_directions_of_the_first():
+    C = [[1.0, 0.0], [1.0, 1.0]]
+    found = compared(C, C, "rr", (1, -1))
+    assert found[1] == (
+        "follows 1 × 'a1' + 1 × its coordinate",
+        "follows -1 × 'b1' + 1 × its coordinate",
+        True,
+    )

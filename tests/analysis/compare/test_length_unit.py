@@ -42,7 +42,7 @@ def test_lengths_a_thousand_times_too_long_or_too_short_are_named_whichever_mode
     other = rescaled(in_other_conventions(chain, 1), factor)
     for one, two, ratio in ((chain, other, factor), (other, chain, 1 / factor)):
         result = compare(one, two, samples=5)
-        assert (result.equal, result.length_ratio) == (False, pytest.approx(ratio))
+        assert (result.same_arm, result.length_ratio) == (False, pytest.approx(ratio))
         assert not any(j.axis_differs or j.reversed for j in result.joints)
         larger, smaller = ("b", "a") if ratio > 1 else ("a", "b")
         assert (
@@ -97,8 +97,21 @@ def test_the_unit_is_named_beside_another_link_an_extra_joint_and_in_a_strict_co
         None,
     )
     strict = compare(chain, rescaled(chain, 1000.0), samples=5, strict=True)
-    assert (strict.equal, strict.length_ratio, strict.differing) == (False, 1000, ())
+    assert (strict.same_arm, strict.length_ratio, strict.differing) == (False, 1000, ())
     assert strict.verdict.startswith("the models differ; lengths")
+
+
+def test_the_unit_of_a_calibrated_arm_is_named_though_every_axis_differs():
+    chain = arm("ur5e")
+    rng = np.random.default_rng(3)
+    worn = chain.screws.copy()
+    for k in range(6):
+        worn[k] = se3.adjoint(se3.exp(1e-3 * rng.normal(size=6))) @ worn[k]
+    result = compare(chain, rescaled(chain.replace(screws=worn), 1000.0))
+    assert (result.mistake, result.length_ratio, len(result.differing)) == ("millimetres", 1000, 6)
+    assert result.after is not None
+    # 1 mrad and 1 mm an axis and coordinate, on an arm of 1.3 m.
+    assert 0.01 * chain.reach < result.after.worst_position < 0.02 * chain.reach
 
 
 def elbow(length):
@@ -111,11 +124,11 @@ def test_arms_that_truly_differ_and_arms_of_another_size_are_no_matter_of_units(
     one, other = (random_arm(seed, ("revolute",) * 3) for seed in (1, 2))
     pairs = [
         (one, rescaled(other, 1000.0)), (rescaled(one, 0.001), other), (one, rescaled(one, 500.0)),
-        (one, rescaled(one, 990.0)), (elbow(0.5), elbow(400.0)), (one, rescaled(one, 2.0)),
+        (one, rescaled(one, 900.0)), (elbow(0.5), elbow(400.0)), (one, rescaled(one, 2.0)),
     ]  # fmt: skip
     for a, b in pairs:
-        result = compare(a, b, samples=1)
-        assert (result.equal, result.length_ratio) == (False, 1.0)
+        result = compare(a, b, samples=20)
+        assert (result.same_arm, result.length_ratio) == (False, 1.0)
         assert "1000" not in result.verdict
     # Their sizes alone would not tell: another comparison, in one unit, decides.
     assert [length_ratio(a, b) for a, b in pairs] == [1000, 1000, 1000, 1000, 1000, 1]
@@ -129,13 +142,14 @@ def test_a_rescaled_chain_reaches_the_same_poses_with_lengths_multiplied():
     # Joint 2 follows a slide, joint 3 turns by itself.
     C, c = np.array([[1.0, 0.0], [0.5, 0.0], [0.0, 2.0]]), [0.1, 0.2, 0.3]
     chain = Chain.from_space(rows, se3.exp(rng.normal(size=6)), coupling=C, offset=c, q_names=["slide", "turn"],
-                  limits=[[-0.5, 0.5], [-1, 1]])  # fmt: skip
+                  limits=[[-0.5, 0.5], [-1, 1]], velocity_limits=[0.25, 3])  # fmt: skip
     large = rescaled(chain, 1000.0)
     q = chain.random(0, 5)
     expected = chain.fk(q)
     expected[:, :3, 3] *= 1000
     assert large.fk(q * [1000, 1]) == pytest.approx(expected, rel=1e-12, abs=1e-12)
     assert large.limits.tolist() == [[-500, 500], [-1, 1]]
+    assert large.velocity_limits.tolist() == [250, 3]
     assert compare(chain, large, samples=1).length_ratio == 1000
     C[1, 0] = 0.6
     geared = Chain.from_space(rows, chain.home, coupling=C, offset=c, q_names=["slide", "turn"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +15,7 @@ from poekin.analysis.compare import messages
 from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.compare import compare
 from poekin.analysis.compare.comparison import JointComparison
+from poekin.analysis.compare.messages import Said
 from poekin.model.chain import Chain
 
 UR = pk.load("ur5e").chain(tip="tool0")
@@ -96,15 +98,15 @@ SLIDES = replace(TURNS, kind_a="prismatic", kind_b="prismatic", normal=None, shi
      "has an axis that is 12.35 mm from the other model's"),
     (TURNS, {"axis_differs": True, "angle": 0.001, "normal": 0.01, "shift": 0.01}, "has another pitch"),
     (SLIDES, {"axis_differs": True}, "has another pitch"),
-    (TURNS, {"zero_differs": True, "zero_offset": -5.7}, "has its zero position 5.7° from the other model's"),
-    (SLIDES, {"zero_differs": True, "zero_offset": 5.7}, "has its zero position 5.7 mm from the other model's"),
+    (TURNS, {"zero_differs": True, "zero_offset": -5.7}, "has its zero 5.7° elsewhere"),
+    (SLIDES, {"zero_differs": True, "zero_offset": 5.7}, "has its zero 5.7 mm elsewhere"),
     (TURNS, {"reversed": True}, "has the sign of q flipped"),
     (TURNS, {"coupling_differs": True, "follows_a": "follows 2 × 'x'"},
      "follows 2 × 'x' in one model and moves by itself in the other"),
     (TURNS, {"coupling_differs": True, "follows_b": "does not move"},
      "moves by itself in one model and does not move in the other"),
     (TURNS, {"zero_differs": True, "zero_offset": 1.0, "reversed": True},
-     "has its zero position 1° from the other model's and has the sign of q flipped"),
+     "has its zero 1° elsewhere and has the sign of q flipped"),
 ])  # fmt: skip
 def test_what_differs_in_a_joint_is_said_whole(joint, changes, words):
     assert messages.joint_words(in_si(joint, **changes), TOL) == words
@@ -117,15 +119,16 @@ def test_joints_that_differ_are_named_by_number_and_the_first_model_s_name():
     )
     axis = "has an axis that is turned by {}° from the other model's"
     two = [f"joint 3 ('a3') {axis.format(3)}", f"joint 4 ('a4') {axis.format(4)}"]
-    assert messages.differences(joints, TOL) == two
+    assert messages.joint_findings(joints, TOL, Said()) == two
     for link in (1, 2):
-        (sentence,) = messages.differences(joints, TOL, link=link)
+        (sentence,) = messages.joint_findings(joints, TOL, Said(), link)
         assert sentence == (
             f"the link between joint {link} ('a{link}') and joint {link + 1} ('a{link + 1}') differs: from joint 3 on "
             f"the axes have moved together, and joint 3 {axis.format(3)}"
         )
     coupled = (*joints[:3], replace(joints[3], axis_differs=False, coupling_differs=True))
-    assert len(messages.differences(coupled, TOL, link=2)) == 2
+    _, fourth = messages.joint_findings(coupled, TOL, Said(), 2)
+    assert fourth == "joint 4 ('a4') moves by itself in one model and moves by itself in the other"
 
 
 @pytest.mark.parametrize("xi, words", [
@@ -230,30 +233,89 @@ def test_the_verdict_says_what_is_the_same_what_differs_and_what_was_aligned():
     base, tool = pk.se3.exp([0, 0, np.radians(10), 0, 0, 0]), pk.se3.exp([0, 0, 0, 0.05, 0, 0])
     S = UR.screws.copy()
     S[2, 3:] += np.cross([0, 0, 0.003], S[2, :3])
-    bent = Chain.from_space(S, UR.home, joint_names=UR.joint_names)
+    bent = UR.replace(screws=S)
     name = UR.joint_names[2]
-    third = f"joint 3 ('{name}') has an axis that is 3 mm from the other model's"
+    third = f"joint 3 ('{name}') has an axis that is 3 mm from the other model's: "
 
     def said(b, **options):
         return compare(UR, b, samples=1, **options).verdict
 
-    assert said(UR) == "the models are the same"
-    assert said(UR, strict=True) == "the models are the same as they stand"
-    aligned = "aligned: the base frame is turned by 10° and the tool frame is moved by 50 mm"
-    assert (
-        said(UR.rebased(base).retooled(tool))
-        == f"the models are the same arm, up to free choices; {aligned}"
-    )
-    assert said(bent) == f"the models differ; {third}"
-    assert (
-        said(bent.retooled(tool))
-        == f"the models differ; {third}; aligned: the tool frame is moved by 50 mm"
-    )
-    assert said(bent, strict=True) == f"the models differ; {third}"
-    assert (
-        said(UR.retooled(tool), strict=True)
-        == "the models differ; the home pose's frame is moved by 50 mm"
-    )
+    assert said(UR) == said(UR, strict=True) == "the models are the same"
+    other = "the models are the same arm in other conventions"
+    head, turned, moved = said(UR.rebased(base).retooled(tool)).split("; ")
+    assert head == other
+    assert turned.startswith("aligned: the base frame is turned by 10°: ")
+    assert turned.endswith(" mm at the tool")
+    assert moved == "aligned: the tool frame is moved by 50 mm"
+    assert said(bent).startswith(f"the models differ; {third}")
+    assert said(bent.retooled(tool)) == f"{said(bent)}; aligned: the tool frame is moved by 50 mm"
+    assert said(bent, strict=True) == said(bent)
+    assert said(UR.retooled(tool), strict=True) == f"{other}; the tool frame is moved by 50 mm"
+    free = said(UR.retooled(tool), same=("base", "zeros"))
+    may = "the models are the same but for what may differ"
+    assert free == f"{may}; aligned: the tool frame is moved by 50 mm"
     zero = said(UR.rezeroed([0, 0, 0.1, 0, 0, 0]))
-    words = f"joint 3 ('{name}') has its zero position 5.73° from the other model's"
-    assert zero == f"the models are the same arm, up to free choices; {words}"
+    assert zero.startswith(f"{other}; joint 3 ('{name}') has its zero 5.73° elsewhere: ")
+
+
+@pytest.mark.parametrize("limits, words", [
+    ((0.1, 0.0), "has its lower limit 5.73° higher in model b"),
+    ((0.0, -0.1), "has its upper limit 5.73° lower in model b"),
+    ((-0.1, 0.1), "has its lower limit 5.73° lower in model b and its upper limit 5.73° higher in model b"),
+    ((math.inf, -math.inf), "has a lower limit in model b alone and a upper limit in model b alone"),
+    ((-math.inf, 0.0), "has a lower limit in model a alone"),
+    ((0.0, math.inf), "has an upper limit in model a alone"),
+])  # fmt: skip
+def test_limits_are_said_by_how_much_and_in_which_model(limits, words):
+    words = words.replace("a upper", "an upper")
+    assert messages.limit_words(replace(TURNS, limits=limits)) == words
+
+
+def test_limits_and_names_are_said_where_they_count():
+    joint = replace(TURNS, name_a="j\n1", limits=(0.0, 0.1))
+    assert messages.joint_findings((joint,), TOL, Said()) == []
+    limits = Said(frozenset([2]))
+    (words,) = messages.joint_findings((joint,), TOL, limits)
+    assert words == "joint 2 ('j\\n1') has its upper limit 5.73° higher in model b"
+    both = limits._replace(names=True)
+    (words,) = messages.joint_findings((replace(joint, reversed=True, effect=0.1),), TOL, both)
+    assert words == (
+        "joint 2 ('j\\n1') has the sign of q flipped: 100 mm at the tool, and has its upper limit 5.73° higher in "
+        "model b, and is called 'b2' in model b"
+    )
+    same = replace(joint, name_b="j\n1")
+    assert messages.joint_findings((same,), TOL, Said(names=True)) == []
+
+
+@pytest.mark.parametrize("effect, words", [
+    (0.0, ""), (0.9e-5, ""), (1.1e-5, ": 0.011 mm at the tool"), (0.00994, ": 9.9 mm at the tool"),
+    (0.01, ": 10 mm at the tool"), (0.06443, ": 64 mm at the tool"), (1.234, ": 1234 mm at the tool"),
+    (math.nan, ""),
+])  # fmt: skip
+def test_an_effect_is_said_in_whole_mm_or_two_digits(effect, words):
+    joint = replace(TURNS, reversed=True, effect=effect)
+    (found,) = messages.joint_findings((joint,), TOL, Said())
+    assert found == f"joint 2 ('arm') has the sign of q flipped{words}"
+    frame = messages.frame_words("base", pk.se3.exp([0, 0, 0, 1, 0, 0]), TOL, effect)
+    assert frame == f"the base frame is moved by 1000 mm{words}"
+
+
+def test_behind_another_link_only_what_differs_by_itself_is_said():
+    joints = tuple(
+        in_si(TURNS, number=k + 1, name_a=f"a{k + 1}", axis_differs=k > 1, angle=1.0 + k)
+        for k in range(5)
+    )
+    link, fifth = messages.joint_findings(joints, TOL, Said(apart=frozenset([3, 5])), 2)[::2]
+    assert "from joint 4 on" in link
+    assert fifth.startswith("joint 5 ('a5') has an axis that is turned by 5°")
+    reversed_too = (*joints[:4], replace(joints[4], reversed=True))
+    _, fifth = messages.joint_findings(reversed_too, TOL, Said(), 2)
+    assert fifth == "joint 5 ('a5') has the sign of q flipped"
+
+
+def test_what_was_aligned_and_the_mistakes_are_said():
+    assert messages.alignment_words("agreeing axes") == "aligned"
+    assert messages.alignment_words("nothing") == "aligned"
+    assert "to all axes by least squares" in messages.alignment_words("all axes")
+    assert messages.mirror_words("y").startswith("model b is a mirrored: y of its base is -y of")
+    assert messages.degree_words("a").startswith("links of model a turn by as many radians")

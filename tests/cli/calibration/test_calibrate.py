@@ -340,6 +340,49 @@ def test_a_search_that_does_not_converge_is_exit_code_1_and_written(
     assert toml_io.load(tmp_path / "best.toml").success is False
 
 
+def test_the_urdf_is_the_model_s_own_text_and_the_result_is_printed_too(
+    poekin, measured, csv, tmp_path
+):
+    model, out = tmp_path / "mine.urdf", tmp_path / "out.urdf"
+    text = pk.to_urdf(pk.load("panda")).replace("<link ", "<!-- mine -->\n  <link ")
+    model.write_text(text, encoding="utf-8")
+    code, said, err = poekin("calibrate", model, *ARM[2:], csv, "-o", out)
+    assert (code, err) == (0, "")
+    assert out.read_text(encoding="utf-8").count("<!-- mine -->") == text.count("<!-- mine -->") > 0
+    plain = poekin("calibrate", model, *ARM[2:], csv)[1]
+    assert said == plain + (
+        f"written: '{out}'\nthe URDF is the model's own text with other origins and axes of joints that"
+        " moved: all else is as it was\n"
+    )
+
+
+def test_a_fit_whose_tip_is_the_last_moving_link_is_written_with_a_tool_link(poekin, tmp_path):
+    chain = pk.load("panda").chain(tip="panda_link7")
+    made = simulated(chain, 40, noise=(1e-4, 1e-4), seed=3)
+    data.write(tmp_path / "m.csv", chain, made.q, made.measurements)
+    given = ["calibrate", "panda", "--tip", "panda_link7", "--folds", 0, tmp_path / "m.csv"]
+    outputs = ["-o", tmp_path / "out.urdf", "-o", tmp_path / "out.toml"]
+    code, said, err = poekin(*given, *outputs)
+    assert code == 0
+    assert err.count("warning: link 'panda_link7' stays on the axis of joint 'panda_joint7'") == 1
+    assert err.count("the tip is the new link 'panda_link7_tool', fixed to it") == 1
+    assert "panda_link7_tool" not in said
+    found = toml_io.load(tmp_path / "out.toml")
+    q = chain.random(0, 20)
+    tool = pk.load(tmp_path / "out.urdf").chain(tip="panda_link7_tool")
+    assert np.abs(tool.fk(q) - found.chain.fk(q)).max() <= 1e-13
+
+
+@pytest.mark.parametrize("json_", [(), ("--json",)])
+def test_a_file_that_cannot_be_written_does_not_cost_the_result(json_, poekin, csv, tmp_path):
+    given = [*ARM, csv, *json_, "--parameters", "gains"]  # of which URDF knows nothing
+    code, said, err = poekin(*given, "-o", tmp_path / "arm.urdf", "-o", tmp_path / "arm.csv")
+    assert code == 2
+    assert err.startswith("poekin: error: the chain's joints follow its coordinates otherwise")
+    assert {path.name for path in tmp_path.iterdir()} == {"poses.csv"}
+    assert said == poekin(*given)[1] != ""
+
+
 def test_faults_in_a_row_name_file_and_line(refused, csv):
     lines = csv.read_text().splitlines()
     for cell, message in (

@@ -175,7 +175,7 @@ def test_a_plot_without_matplotlib_names_the_extra_and_writes_nothing(
     ("call", "says"),
     [
         ([], "--input: a file of poses expected, got none"),
-        (["--input", "T.csv"], "--format: expected 12, 16 or 7"),
+        (["--input", "T.csv"], "--format: expected one of matrix, quat"),
         (["--input", "T.csv", "--format", "7"], "--quaternion: the format 7 needs the order"),
         (
             ["--input", "T.csv", "--format", "12", "--plot", "q.png"],

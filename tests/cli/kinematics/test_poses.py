@@ -8,25 +8,26 @@ import pytest
 import poekin as pk
 from poekin.cli.kinematics import arm, poses
 from poekin.errors import InputError
+from poekin.formats.poses.layout import NAMED
 
 CHAIN = pk.load("stanford").chain()
 NAMES = ", ".join(CHAIN.q_names)
-TWELVE = "T00 T01 T02 T03 T10 T11 T12 T13 T20 T21 T22 T23"
+TWELVE = "T00, T01, T02, T03, T10, T11, T12, T13, T20, T21, T22, T23"
 ROW = ["1", "0", "0", "0.1", "0", "1", "0", "0.2", "0", "0", "1", "0.3"]
 
 REFUSED = {
     "option": (lambda: poses.read(["--inptu"], None, "12", None),
                "there is no option '--inptu'; did you mean '--input'?"),
     "format": (lambda: poses.read(ROW, None, None, None),
-               "--format: expected 12, 16 or 7, the numbers of a pose, and the format is never guessed"),
+               f"--format: expected one of {NAMED}; the format of a pose is never guessed"),
     "both": (lambda: poses.read(ROW, "T.csv", "12", None),
              "either a pose or --input expected, got both ('1' and 'T.csv')"),
     "count": (lambda: poses.read(ROW[1:], None, "12", None),
-              f"a pose: 12 numbers expected ({TWELVE}), got 11; or --input with a file"),
+              f"the pose:1: 12 values expected ({TWELVE}), got 11"),
     "none": (lambda: poses.read(None, None, "12", None),
-             f"a pose: 12 numbers expected ({TWELVE}), got 0; or --input with a file"),
+             "one pose expected, got 0; or --input with a file"),
     "word": (lambda: poses.read([*ROW[:4], "x", *ROW[5:]], None, "12", None),
-             "the pose's number 5: a number expected, got 'x'"),
+             "the pose:1, column 5: a number expected, got 'x'"),
     "coordinates": (lambda: poses.coordinates("1, 2", CHAIN, "--q0"), f"--q0: 6 coordinates expected ({NAMES}), got 2"),
     "coordinate": (lambda: poses.coordinates("1,b", CHAIN, "--q0"), "--q0: number 2: a number expected, got 'b'"),
     "for each": (lambda: poses.for_each("1 2", CHAIN, "--speed"), f"--speed: 6 coordinates expected ({NAMES}), got 2"),
@@ -36,7 +37,7 @@ REFUSED = {
     "few, one only": (lambda: arm.take("stanford", None, None, ["1"], None, many=False),
                       f"6 coordinates expected ({NAMES}), got 1"),
     "no number": (lambda: arm.take("stanford", None, None, ["1", "x"], None),
-                  "coordinate 2: a number expected (rad or m), got 'x'"),
+                  "coordinate 2: a number expected, got 'x'"),
     "both ways": (lambda: arm.take("stanford", None, None, ["1", "2"], "q.csv"),
                   "either coordinates or --input expected, got both ('1' and 'q.csv')"),
     "no option": (lambda: arm.take("stanford", None, None, ["--fram"], None),
@@ -55,6 +56,8 @@ def test_what_is_refused_is_said_with_what_was_expected_and_what_arrived(case):
 def test_numbers_are_taken_in_their_order():
     T = poses.read(ROW, None, "12", None)
     assert T[0, :3].ravel().tolist() == [float(word) for word in ROW]
+    for words in ([" ".join(ROW)], [", ".join(ROW)], ["; ".join(ROW).replace(".", ",")]):
+        assert np.array_equal(poses.read(words, None, "matrix", None), T)
     assert np.array_equal(poses.coordinates("1,2 3, 4,5  6", CHAIN, "--q0"), [1, 2, 3, 4, 5, 6])  # type: ignore[arg-type]
     assert poses.coordinates(None, CHAIN, "--q0") is None
     assert poses.for_each(None, CHAIN, "--speed") is None

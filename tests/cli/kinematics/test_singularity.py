@@ -95,7 +95,7 @@ def test_words_and_measures_are_those_of_the_functions(poekin):
         (["--at", "0", "0"], "7 coordinates expected (panda_joint1, "),
         (["--at", "0", "0"], "panda_joint7), got 2\n"),
         (["--at", ""], "--at: coordinates expected, got nothing"),
-        (["--at", "a", *AWAY[1:]], "coordinate 1: a number expected (rad or m), got 'a'"),
+        (["--at", "a", *AWAY[1:]], "coordinate 1: a number expected, got 'a'"),
         (["--at", "nan", *AWAY[1:]], "q: expected one finite configuration (7,)"),
         (["--tolerance", "3", *AWAY], "tolerance: expected a number between 0 and 1, got 3"),
         (["--part", "all", *AWAY], "--part"),

@@ -169,7 +169,9 @@ def test_the_table_has_the_numbers_of_the_function_in_the_order_of_its_heads(tmp
             f" mean {1e3 * errors.mean_position:.3g} mm, {np.degrees(errors.mean_rotation):.3g}°"
             in lines
         )
-    assert lines[-1].lower() == result.verdict.lower()
+    assert lines[-1] == "The models differ"
+    clauses = [text[0].upper() + text[1:] for text in result.findings]
+    assert lines[-1 - len(clauses) : -1] == clauses
 
 
 def test_a_tree_is_refused_by_the_name_of_its_file_and_the_option_that_helps(
@@ -180,3 +182,67 @@ def test_a_tree_is_refused_by_the_name_of_its_file_and_the_option_that_helps(
     assert refused(
         "compare", written(tmp_path, "a.urdf", 0), crane
     ) == "poekin: error: " + said.format("--tip-b")
+
+
+def changed(tmp_path, name, *changes):
+    """The robot with text replaced, as a file."""
+    text = URDF.format(x=0)
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+CHANGES = {
+    "zero": ('xyz="0 0 0.3"', 'xyz="0 0 0.3" rpy="0 0.1 0"'),
+    "limits": ('lower="-1"', 'lower="-0.9"'),
+    "directions": ('<axis xyz="0 1 0"/>', '<axis xyz="0 -1 0"/>'),
+    "names": ('name="two[b]"', 'name="due"'),
+    "axis": ('xyz="0.1 0 0.3"', 'xyz="0.1 0.01 0.3"'),
+}
+
+
+@pytest.mark.parametrize("change, usual, word", [
+    ("zero", 3, "zeros"), ("limits", 1, "limits"), ("directions", 3, "directions"), ("names", 0, "names"),
+    ("axis", 1, ""),
+])  # fmt: skip
+def test_the_exit_code_counts_what_may_not_differ(tmp_path, poekin, change, usual, word):
+    a = changed(tmp_path, "a.urdf")
+    b = changed(tmp_path, "b.urdf", CHANGES[change])
+    assert poekin("compare", a, b)[0] == usual
+    every = "base,tool,zeros,directions,limits,names"
+    assert poekin("compare", a, b, "--same", every)[0] == (usual or 3)
+    # About another zero the same limits are others.
+    free = {word, "limits"} if word == "zeros" else {word}
+    others = ",".join(name for name in every.split(",") if name not in free)
+    assert poekin("compare", a, b, "--same", others)[0] == (0 if word else 1)
+    assert poekin("compare", a, b, "--same", "")[0] == (0 if word else 1)
+    assert poekin("compare", a, b, "--strict", "--json")[0] == usual
+
+
+def test_the_zero_that_is_elsewhere_is_named_in_strict_mode_too(tmp_path, poekin):
+    a = changed(tmp_path, "a.urdf")
+    b = changed(tmp_path, "b.urdf", CHANGES["zero"])
+    for options in ((), ("--strict",)):
+        code, out, _ = poekin("compare", a, b, *options)
+        said, outcome = out.splitlines()[-2:]
+        assert code == 3
+        assert said.startswith("Joint 2 ('two[b]') has its zero 5.73° elsewhere: ")
+        assert said.endswith(" mm at the tool")
+        assert outcome == "The models are the same arm in other conventions"
+
+
+@pytest.mark.parametrize("words, got", [("base,speed", "speed"), (",", ""), ("Base", "Base")])
+def test_words_that_are_no_conventions_are_refused(tmp_path, refused, words, got):
+    a = changed(tmp_path, "a.urdf")
+    known = "'base', 'tool', 'zeros', 'directions', 'limits' or 'names'"
+    said = f"poekin: error: --same: expected names out of {known}, got '{got}'\n"
+    assert refused("compare", a, a, "--same", words) == said
+
+
+def test_blanks_between_words_are_read(tmp_path, poekin):
+    a = changed(tmp_path, "a.urdf")
+    b = changed(tmp_path, "b.urdf", CHANGES["zero"])
+    assert poekin("compare", a, b, "--same", " base , tool")[0] == 0

@@ -22,7 +22,8 @@ def test_the_tree_the_chains_and_the_screws(crane, poekin):
     assert "├ slide (prismatic) → b" in out
     assert "│ lower (prismatic = 0.5 × slide + 0.1) → hook" in out
     assert "└ bracket (fixed) → lamp" in out
-    rows = {line.split()[0]: line.split() for line in out.splitlines() if line.strip()}
+    screws = out.partition("\nLimits of")[0]
+    rows = {line.split()[0]: line.split() for line in screws.splitlines() if line.strip()}
     assert rows["turn"][:9] == ["turn", "revolute", "turn", "0", "0", "1", "0", "0", "0"]
     assert rows["lower"][1:6] == ["prismatic", "0.5", "slide", "+", "0.1"]
 
@@ -125,6 +126,52 @@ def test_a_joint_has_the_limits_of_the_coordinate_that_it_follows():
     rows = list(_screw_rows(both))
     assert [(row[2], row[-2:]) for row in rows] == [("q1 + q2", ("-1", "2")), ("0.5", ("0", "0"))]
     assert {len(row) for row in rows} == {11}
+
+
+def drive(name, parent, kind, inside):
+    ends = f'<parent link="{parent}"/><child link="{name}"/>'
+    return f'<link name="{name}"/><joint name="j_{name}" type="{kind}">{ends}{inside}</joint>'
+
+
+DRIVES = '<robot name="r"><link name="base"/>' + "".join([
+    drive("a", "base", "continuous", '<limit effort="87" velocity="2.175"/>'),
+    drive("b", "a", "fixed", '<limit effort="5" velocity="6"/>'),
+    drive("c", "b", "continuous", '<limit effort="0" velocity="1.5"/><dynamics damping="3" friction="4"/>'),
+    drive("d", "c", "continuous", ""),
+    drive("e", "a", "continuous", '<limit effort="7" velocity="0"/><safety_controller k_velocity="9"/>'),
+    "</robot>",
+])  # fmt: skip
+LIMITS = "Limits of velocity (rad/s or m/s) and effort (N m or N), inf where not known"
+
+
+def test_velocity_and_effort_are_shown_of_the_joints_that_say_them(tmp_path, poekin):
+    path = tmp_path / "r.urdf"
+    path.write_text(DRIVES)
+    for options, expected in (
+        ((), [["j_a", "2.175", "87"], ["j_c", "1.5", "inf"], ["j_e", "inf", "7"]]),
+        (("--tip", "d"), [["j_a", "2.175", "87"], ["j_c", "1.5", "inf"]]),
+        (("--base", "c", "--tip", "d"), []),
+    ):
+        _, out, _ = poekin("info", path, *options)
+        lines = out.splitlines()
+        if not expected:
+            assert LIMITS not in lines
+            continue
+        at = lines.index(LIMITS)
+        assert lines[at + 1].split() == ["joint", "velocity", "effort"]
+        assert [line.split() for line in lines[at + 3 : at + 3 + len(expected)]] == expected
+
+
+def test_json_says_what_a_joint_s_drive_is(tmp_path, as_json):
+    path = tmp_path / "r.urdf"
+    path.write_text(DRIVES)
+    document = as_json("info", path)
+    a, _, c, d, e = document["joints"]
+    assert [a[key] for key in ("velocity", "effort", "damping", "friction")] == [2.175, 87, 0, 0]
+    assert [c[key] for key in ("velocity", "effort", "damping", "friction")] == [1.5, None, 3, 4]
+    assert (d["velocity"], d["safety_controller"]) == (None, None)
+    assert e["safety_controller"]["k_velocity"] == 9
+    assert document["chains"][0]["velocity_limits"] == [2.175, 1.5, None]
 
 
 def test_a_chain_below_a_floating_joint_says_so(tmp_path, crane, poekin):

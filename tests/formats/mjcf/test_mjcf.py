@@ -209,6 +209,35 @@ def test_names_kinds_and_limits_are_those_of_the_file():
     assert robot.limits.tolist() == [[-np.pi / 2, np.pi / 2], [-np.inf, np.inf], [-np.inf, np.inf]]
 
 
+DRIVE = 'damping="0.5" frictionloss="0.25"'
+
+
+@pytest.mark.parametrize(
+    "joint, expected",
+    [
+        (f'<joint {DRIVE} actuatorfrcrange="-3 3"/>', (0.5, 0.25, 3)),
+        ('<joint actuatorfrcrange="-3 4"/>', (0, 0, np.inf)),
+        ('<joint actuatorfrcrange="-3 3" actuatorfrclimited="false"/>', (0, 0, np.inf)),
+        (f'<joint type="slide" {DRIVE}/>', (0.5, 0.25, np.inf)),
+        (f'<joint type="ball" {DRIVE}/>', (0.5, 0.25, np.inf)),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:ball joints:poekin.errors.PoekinWarning")
+def test_a_joint_says_of_its_drive_what_mjcf_knows(joint, expected):
+    before = f'<body name="before">{G}<joint type="ball"/></body>'
+    robot = read(model_of(f'{before}<body name="a">{G}{joint}</body>'))[0]
+    found = robot.joint("a_joint")
+    assert (found.damping, found.friction, found.effort) == expected
+    assert found.velocity == np.inf
+    assert robot.joint("before_joint").damping == 0
+
+
+def test_a_joint_held_still_has_no_drive():
+    held = f'<body name="a">{G}<joint name="x" {DRIVE}/></body>'
+    (joint,) = read(model_of(held, '<equality><joint joint1="x"/></equality>'))[0].joints
+    assert (joint.kind, joint.damping, joint.friction) == ("fixed", 0, 0)
+
+
 COUPLED = model_of(
     f'<body name="a">{G}<joint name="x" ref="0.3"/></body><body name="b">{G}<joint name="y" type="slide" ref="0.1"/>'
     f'</body><body name="c">{G}<joint name="z" ref="0.4"/></body>'

@@ -16,7 +16,9 @@ NAMES = ("a", "b", "c")
 
 
 def read(text: str, **more) -> tuple[list, list]:
-    rows, lines = csv_rows.read(io.StringIO(text), NAMES, "f.csv", "coordinate", **more)
+    options = {key: more.pop(key) for key in ("progress", "size") if key in more}
+    columns = csv_rows.Columns(NAMES, "coordinate", **more)
+    rows, lines = csv_rows.read(io.StringIO(text), columns, "f.csv", **options)
     return rows.tolist(), lines.tolist()
 
 

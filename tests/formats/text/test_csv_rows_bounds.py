@@ -24,7 +24,7 @@ def zeros(tmp_path):
 
 
 def read(stream):
-    return csv_rows.read(stream, ["a", "b"], "q.csv", "coordinate")
+    return csv_rows.read(stream, csv_rows.Columns(("a", "b"), "coordinate"), "q.csv")
 
 
 def piped(text):
@@ -48,7 +48,9 @@ def test_a_device_without_an_end_is_no_array(zeros, monkeypatch):
     with pytest.raises(
         FileError, match="at most 4096 bytes expected from a pipe; a file may be larger"
     ):
-        array_files.read_configurations(str(zeros), ["a"], lambda done, total: None)
+        array_files.read_configurations(
+            str(zeros), csv_rows.Columns(("a",), "coordinate"), lambda done, total: None
+        )
 
 
 def test_an_array_out_of_a_pipe_is_read(tmp_path, monkeypatch):
@@ -60,7 +62,10 @@ def test_an_array_out_of_a_pipe_is_read(tmp_path, monkeypatch):
     os.symlink(f"/dev/fd/{out}", tmp_path / "q.npy")
     try:
         np.testing.assert_array_equal(
-            array_files.read_configurations(str(tmp_path / "q.npy"), ["a", "b"], print), 1
+            array_files.read_configurations(
+                str(tmp_path / "q.npy"), csv_rows.Columns(("a", "b"), "coordinate"), print
+            ),
+            1,
         )
     finally:
         os.close(out)
@@ -100,7 +105,7 @@ def test_a_file_may_be_larger_than_what_a_pipe_gives(monkeypatch, tmp_path):
     monkeypatch.setattr(csv_rows, "AT_ONCE", 2)
     (tmp_path / "q.csv").write_text("a,b\n" + "1,2\n" * 5)
     with csv_rows.opened(tmp_path / "q.csv") as (stream, where, size):
-        rows, lines = csv_rows.read(stream, ["a", "b"], where, "coordinate")
+        rows, lines = csv_rows.read(stream, csv_rows.Columns(("a", "b"), "coordinate"), where)
     assert (rows.tolist(), lines.tolist(), size) == ([[1, 2]] * 5, [2, 3, 4, 5, 6], 24)
 
 

@@ -73,3 +73,22 @@ def test_the_quaternion_is_that_of_the_angle_and_at_pi_its_largest_component_is_
         half_turn = 2 * np.outer(axis, axis) - np.eye(3)
         q = np.array(quaternion.quaternion(half_turn.ravel()))
         same(q / np.linalg.norm(q), np.r_[0.0, axis * np.sign(axis[np.abs(axis).argmax()])])
+
+
+def test_the_unit_quaternion_is_that_of_the_logarithm_and_of_length_one():
+    for R in rotations(0.0):
+        q = exact.exactly(quaternion.unit_quaternion(tuple(map(float, R.ravel()))))
+        # u of the sum with its rest, u of the division, and a length right to u
+        assert float(exact.norm(q - unit_quaternion(R))) <= 3 * UNIT
+
+
+@pytest.mark.parametrize("length", [0.5, 1.0, 3.0])
+def test_a_multiple_of_a_quaternion_is_its_rotation(length):
+    for _ in range(200):
+        w = rng.normal(size=3)
+        half = exact.norm(exact.exactly(w)) / 2
+        q = [mp.cos(half), *(mp.sin(half) / (2 * half) * exact.exactly(w))]
+        given = [float(length * x) for x in q]
+        R = np.reshape(quaternion.rotation(*given), (3, 3))
+        # the numbers are right to u each, and 2 (v v + w v) / |q|^2 rounds five times
+        np.testing.assert_allclose(R, exact.rounded(exact.exp(w)), rtol=0, atol=8 * UNIT)

@@ -11,7 +11,7 @@ import pytest
 
 from poekin.model.joint import Joint, Mimic
 from poekin.model.provenance import Source
-from poekin.model.tree.coupling import Coupling, coupling_of, shared_limits
+from poekin.model.tree.coupling import Coupling, coupling_of, shared_limits, shared_velocity_limits
 
 INF = np.inf
 
@@ -82,7 +82,36 @@ def test_limits_are_what_all_followers_leave_and_the_master_s_own_where_that_is_
     assert apart.tolist() == ([0] if torn else [])
 
 
-def test_a_master_off_the_way_sets_no_limits_unless_those_on_it_contradict_each_other():
+@pytest.mark.parametrize("own, ratio, velocity, expected", [
+    (2.0, 2.0, 3.0, 1.5),
+    (2.0, -2.0, 3.0, 1.5),
+    (2.0, 0.5, 3.0, 2.0),
+    (INF, -4.0, 3.0, 0.75),
+    (2.0, 3.0, INF, 2.0),
+    (INF, 3.0, INF, INF),
+    (2.0, 0.0, 3.0, 2.0),  # it does not follow
+    (2.0, 1e-300, 1e300, 2.0),  # a bound beyond the largest number is none
+    (2.0, 1e300, 1e-300, 5e-324),  # and one below the smallest is it
+])  # fmt: skip
+def test_a_coordinate_is_as_fast_as_the_slowest_of_its_followers_allows(
+    own, ratio, velocity, expected
+):
+    coupling = Coupling(
+        ("q",), np.array([0]), np.array([0, -1, 0]), np.array([1, 3, ratio]), np.zeros(3)
+    )
+    velocities = np.array([own, 0.1, velocity])
+    assert shared_velocity_limits(coupling, velocities, np.arange(3)).tolist() == [expected]
+
+
+def test_a_master_off_the_way_sets_no_velocity_limit():
+    coupling = Coupling(
+        ("p", "q"), np.array([0, 1]), np.array([0, 1, 1]), np.array([1, 1, 2]), np.zeros(3)
+    )
+    found = shared_velocity_limits(coupling, np.array([5.0, 6.0]), np.array([0, 2]))
+    assert found.tolist() == [5, 3]
+
+
+def test_a_master_off_the_way_sets_no_limits_limits_unless_those_on_it_contradict_each_other():
     coupling = Coupling(
         ("p", "q"), np.array([0, 1]), np.array([0, 1, 1, 1]), np.ones(4), np.zeros(4)
     )

@@ -307,6 +307,7 @@ def test_the_result_says_what_it_is_and_goes_on_to_other_forms(tmp_path):
         assert part in words
     path = tmp_path / "panda.urdf"
     path.write_text(found.to_urdf(robot))
+    assert found.to_urdf(robot, into=robot) == pk.to_urdf(found.chain, into=robot)
     again = pk.load(path).chain(tip="panda_link8")
     np.testing.assert_allclose(again.fk(q), found.chain.fk(q), rtol=0, atol=1e-12)
     with warnings.catch_warnings():

@@ -109,6 +109,30 @@ def test_a_target_s_result_does_not_depend_on_its_batch_s_shape():
     np.testing.assert_array_equal(one.q, flat.q[0])
 
 
+def test_without_a_start_it_begins_near_the_middle_of_the_limits():
+    T = PANDA.fk(PANDA.random(4, 200))
+    middle = PANDA.limits.mean(axis=1)
+    found = ik(PANDA, T, restarts=0)
+    beside = 0.02 * np.diff(PANDA.limits)[:, 0] * [1, -1, 1, -1, 1, -1, 1]
+    np.testing.assert_array_equal(found.q, ik(PANDA, T, q0=middle + beside, restarts=0).q)
+    anywhere = ik(PANDA, T, q0=PANDA.random(5, 200), restarts=0)
+    assert found.success.sum() > 1.3 * anywhere.success.sum()
+
+    def distance(solution):
+        return np.median(np.linalg.norm(solution.q - middle, axis=1)[solution.success])
+
+    assert distance(found) < distance(anywhere)
+
+
+def test_the_first_try_reaches_straight_inwards():
+    joints = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 0.5)]
+    planar = pk.Chain.from_space(joints, pk.se3.exp([0, 0, 0, 1, 0, 0]))
+    target = pk.se3.exp([0, 0, 0, 0.6, 0, 0])
+    assert ik(planar, target, task="position", restarts=0).success
+    # where it is stretched no joint moves it inwards
+    assert not ik(planar, target, task="position", q0=np.zeros(2), restarts=0).success
+
+
 def test_it_starts_at_q0():
     q = PANDA.random(4, 20)
     found = ik(PANDA, PANDA.fk(q), q0=q)

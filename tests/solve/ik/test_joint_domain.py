@@ -33,6 +33,16 @@ def test_tries_begin_all_over_the_period_of_a_coordinate_without_limits():
     np.testing.assert_array_equal(room(coupling=[[1.0], [0.5]], limits=[[-1, 4]]).ranges, [[-1, 4]])
 
 
+def test_the_first_start_is_near_the_middle_of_the_limits_and_beside_it_in_turn():
+    joints = [[-1.0, 4.0], [-np.inf, np.inf]]
+    np.testing.assert_allclose(
+        room(limits=joints).middle(2), np.tile([1.5 + 0.02 * 5, -0.02 * 2 * np.pi], (2, 1))
+    )
+    units = joint_units(pk.Chain.from_space(AXES, np.eye(4), q_names=["a", "b"]).compile())
+    locked = make_joint_domain(units, (("a", 3.0),), True).middle(1)
+    np.testing.assert_allclose(locked, [[3.0, -0.04 * np.pi]])
+
+
 def test_a_configuration_of_which_no_turn_is_within_the_limits_stays():
     np.testing.assert_array_equal(
         room(limits=[[-1, 1]] * 2).wrapped(np.full(2, 10.0), np.zeros(2)), 10.0

@@ -34,6 +34,11 @@ OFF = "2 mm and 0.01719° off"
     (made("unreachable"), f"unreachable: the nearest pose found is {OFF}"),
     (made("unreachable", beyond=0.123456),
      f"unreachable: the target is farther than the arm's reach by 123.5 mm; the nearest pose found is {OFF}"),
+    (made("unreachable", beyond=29.9),
+     f"unreachable: the target is farther than the arm's reach by 2.99e+04 mm; the nearest pose found is {OFF}"),
+    (made("unreachable", beyond=499.2),
+     "unreachable: the target is 499.2 m beyond the arm's reach, as one in millimetres would be;"
+     f" poses are in m (of files in mm, --mm says so); the nearest pose found is {OFF}"),
 ])  # fmt: skip
 def test_why_is_said_with_all_its_numbers(solution, words):
     assert solution.summary() == str(solution) == words

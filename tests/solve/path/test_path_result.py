@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.errors import InputError
 from poekin.model import screw
 from poekin.solve.ik.solution import Solution
 from poekin.solve.ik.task import make_task
@@ -290,3 +291,23 @@ def test_where_nothing_is_reached_nothing_is_off():
         path.summary().splitlines()[0]
         == "0 of 1 poses reached, within 0 mm and 0°; largest step 0 (rad or m)"
     )
+
+
+def test_the_fastest_trajectory_is_through_its_coordinates():
+    q = [[0, 0, 0.1], [0.1, 0.2, 0.1], [0.2, 0.2, 0.3]]
+    found = followed(q).time_optimal(2.0, speed=[1.0, 2.0, 3.0])
+    expected = pk.motion.time_optimal(ARM, q, acceleration=2.0, speed=[1.0, 2.0, 3.0])
+    np.testing.assert_array_equal(found.q, expected.q)
+    np.testing.assert_array_equal(found.times, expected.times)
+
+
+def test_there_is_no_fastest_trajectory_along_a_path_with_a_break():
+    q = [[0, 0, 0.1], [0.1, 0.2, 0.1], [0.2, 0.2, 0.3]]
+    missed = followed(q, reason=["solved", "unreachable", "solved"])
+    with pytest.raises(InputError, match="a path without a break; pose 1 not reached: unreachable"):
+        missed.time_optimal(2.0, speed=1.0)
+    jumping = followed(q, changes=[2])
+    with pytest.raises(
+        InputError, match="a path without a break; the branch changes before pose 2"
+    ):
+        jumping.time_optimal(2.0, speed=1.0)

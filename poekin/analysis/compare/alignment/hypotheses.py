@@ -4,7 +4,7 @@ other readings.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ....model.chain import Chain
-from ...axis_lines import Marks, Tolerances, cross
+from ...axis_lines import Marks, Tolerances, applied, cross, wrapped
 from .alignments import Alignments
 from .lines import Sides, sides
 
@@ -32,6 +32,9 @@ class Costs(NamedTuple):
     axis_in_moved_frames: float = 4.9
     # All axes behind a link: before one moved axis and one other zero (5.55 or more).
     link: float = 5.25
+    # One other zero or direction beside another link, and each further one.
+    first_beside_link: float = 1.0
+    more_beside_link: float = 2.5
     # Each of several moved axes: likelier than two zeros (3.5), less so than one (2.5).
     axis: float = 3.0
     # Share of its distance that one moved axis counts: a tie-break. Of several it counts in full,
@@ -60,7 +63,9 @@ class Hypothesis:
     axes (n, 6), b's screws without pitch as they then stand in a's base; deviations (n), of each, in
     tolerances;
     frames, how many of base and tool moved; link, k > 0 where the axes behind joint k moved
-    together, by a link that is another one: then the tool is the one behind them.
+    together, by a link that is another one: then the tool is the one behind them; carriers
+    (n, 4, 4), the poses that carry b's axes to where they stand in a's base; apart (n, bool or
+    empty), axes behind another link that differ from those beside them as well.
     """
 
     base: Array
@@ -73,16 +78,41 @@ class Hypothesis:
     deviations: Array
     frames: int
     link: int = 0
+    carriers: Array = field(default_factory=lambda: np.zeros((0, 4, 4)))
+    apart: Marks = field(default_factory=lambda: np.zeros(0, bool))
 
     def poses(self, b: Chain, x: Array) -> Array:
         """Poses (m, 4, 4) of b that are to be those of a at joint values x (m, n)."""
         q = self.directions * x + self.zeros
         return self.base @ b.fk(q) @ self.tool
 
+    def swapped(self, a: Chain) -> Hypothesis:
+        """Reading of models b and a that says the same: f_b(x) = base⁻¹ f_a(direction (x - zeros)) tool⁻¹."""
+        back = se3.inverse(self.carriers)
+        axes = a.screws.copy()
+        axes[:, 3:] -= a.pitches[:, None] * axes[:, :3]
+        return replace(
+            self,
+            base=se3.inverse(self.base),
+            tool=se3.inverse(self.tool),
+            zeros=-self.directions * self.zeros,
+            axes=applied(se3.adjoint(back), axes),
+            carriers=back,
+        )
+
     @property
     def changes(self) -> Marks:
         """Changes (3, n, bool) of each joint: another axis, another zero, another direction."""
         return np.stack([self.moved, self.offset, self.directions < 0])
+
+    @property
+    def beside_link(self) -> Marks:
+        """Axes (n, bool) that differ otherwise than by another link."""
+        own = self.moved.copy()
+        if self.link:
+            own[self.link :] = False
+        own[np.flatnonzero(self.apart)] = True
+        return own
 
     @property
     def implicated(self) -> Marks:
@@ -108,7 +138,11 @@ class Hypothesis:
                 alone = COSTS.axis_in_moved_frames
             return (alone, self.frames, moved, near)
         if self.link:
-            return (COSTS.link, self.frames, moved, near)
+            own = self.deviations[self.beside_link]
+            beside = COSTS.axis * len(own) + float((own**0.25).sum())
+            if changes:
+                beside += COSTS.first_beside_link + COSTS.more_beside_link * (changes - 1)
+            return (COSTS.link + beside, self.frames, moved, near)
         weight = COSTS.conventions_start + COSTS.conventions_step * conventions
         if conventions < len(COSTS.conventions):
             weight = COSTS.conventions[conventions]
@@ -116,7 +150,8 @@ class Hypothesis:
         far = float(distances.sum())
         if moved <= 1:
             far *= COSTS.distance_of_one_axis
-        several = COSTS.axis * moved + far + weight
+        # Rounded, as how near axes are is not to decide before frames that stay where they are.
+        several = round(COSTS.axis * moved + far + weight, 2)
         return (several, self.frames, changes, near)
 
 
@@ -127,11 +162,12 @@ def make_hypotheses(pair: Sides, at: Alignments) -> list[Hypothesis]:
     directions by `tol_rotation` and of the distance between the lines by `tol_position`
     (`lines.Transformed.deviations`); kind and pitch have agreed before.
     """
+    at = Alignments(at.P, wrapped(at.z, pair.b.revolute))
     b = pair.transformed(at)
     miss = b.deviations
     base = off_centre(pair, at.P)
-    last = pair.carriers(at)[:, -1]
-    tool = tool_behind(pair, last)
+    carriers = pair.carriers(at)
+    tool = tool_behind(pair, carriers[:, -1])
     axes = b.axes
     axes[..., 3:] -= cross(axes[..., :3], pair.a.centre)
     columns = (
@@ -144,6 +180,8 @@ def make_hypotheses(pair: Sides, at: Alignments) -> list[Hypothesis]:
         axes,
         np.minimum(miss, 1e9),
         frames_moved(pair, base, tool).tolist(),
+        [0] * len(miss),
+        off_centre(pair, carriers[:, :-1]),
     )
     return [Hypothesis(*row) for row in zip(*columns, strict=True)]
 
@@ -182,6 +220,19 @@ def motion_sizes(T: Array) -> tuple[Array, Array]:
     moved = np.linalg.norm(T[..., :3, 3], axis=-1)
     turned = np.linalg.norm(turns, axis=-1)
     return moved, turned
+
+
+def turn_about(T: Array, S: Array, tol: Tolerances) -> float | None:
+    """z with T = e^{S z} within tolerance, or None."""
+    xi = se3.log(T)
+    part = slice(0, 3)
+    if not S[:3].any():
+        part = slice(3, 6)
+    z = float(xi[part] @ S[part])
+    for value in (z, -z):  # at half a turn the logarithm may come with either sign
+        if still(se3.inverse(se3.exp(S * value)) @ T, tol):
+            return value
+    return None
 
 
 def off_centre(pair: Sides, P: Array) -> Array:

@@ -22,8 +22,12 @@ from .alignments import Alignments, Rows
 from .fit import fit
 from .hypotheses import COSTS, Hypothesis, frames_moved, make_hypotheses, tool_behind
 from .lines import Sides, sides
+from .links import with_front_link, with_link
 
 _cost = attrgetter("cost")
+
+MOST_LINKED = 12
+"""So many readings are tried with another link."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,12 +53,12 @@ def search(
     """
     pair = sides(a, b, tol)
     n = pair.n
-    poses = rigid_poses(pair)
-    found = make_hypotheses(pair, poses.at[:1])
+    found = make_hypotheses(pair, pair.as_they_stand)
     (unmoved,) = found
     # Alike as they stand: nothing is to be aligned.
     if not unmoved.cost[0] and not unmoved.frames:
         return unmoved, []
+    poses = rigid_poses(pair)
     starts = best(pair, poses.at)
     found += _rigid(pair, starts, True)
     first = min(found, key=_cost)
@@ -75,6 +79,7 @@ def search(
     found += _rigid(pair, starts.tiled(2), agree)
     if min(found, key=_cost).cost[0] > COSTS.one_change:
         found += _conventions(pair)
+        found += _other_links(pair, found)
     # The reading of the models as they stand holds, and so there is one that does.
     found.sort(key=_cost)
     holding = (r for r in found if r.moved.any() or poses_agree(pair, a, b, r))
@@ -173,6 +178,15 @@ def _links(pair: Sides, rigid: Alignments) -> list[Hypothesis]:
         reading = replace(reading, tool=tool, frames=frames, link=k)
         found.append(reading)
     return found
+
+
+def _other_links(pair: Sides, found: list[Hypothesis]) -> list[Hypothesis]:
+    """The best readings of several moved axes with another link in place of the last ones."""
+    several = [r for r in found if r.moved.sum() > 1 and not r.link]
+    several.sort(key=_cost)
+    few = several[:MOST_LINKED]
+    linked = [link(pair, reading) for link in (with_link, with_front_link) for reading in few]
+    return [reading for reading in linked if reading is not None]
 
 
 def _conventions(pair: Sides) -> list[Hypothesis]:

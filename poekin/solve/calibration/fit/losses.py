@@ -33,7 +33,7 @@ class Loss(NamedTuple):
     rho_second: Array
 
 
-def chi_square(width: int, quantile: float) -> float:
+def chi_square(width: float, quantile: float) -> float:
     """The point of chi-square with `width` degrees of freedom at a quantile given as one of the
     normal distribution.
 

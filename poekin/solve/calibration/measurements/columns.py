@@ -7,7 +7,8 @@ from collections import Counter
 from typing import NamedTuple
 
 from ....errors import InputError, UnknownName, join_names, quote, suggest
-from ....formats.text import pose_rows
+from ....formats.poses.layout import Layout as PoseLayout
+from ....formats.poses.layout import layout as pose_layout
 from ....formats.text.numbers import real
 
 _OF_POSES = ("poses", "eye-in-hand", "eye-to-hand")
@@ -18,18 +19,17 @@ class Layout(NamedTuple):
     """The columns of a measurement, in the order in which they are taken, and the kinds that they
     may be of.
 
-    format: "12", "16" or "7" of poses, "" of anything else.
+    pose: what the numbers of poses are, None of anything else.
     """
 
     columns: tuple[str, ...]
     kinds: tuple[str, ...]
-    format: str = ""
+    pose: PoseLayout | None = None
 
 
-EMPTY = Layout((), ())
-_FIXED = (
-    *(Layout(pose_rows.columns(format), _OF_POSES, format) for format in ("16", "12")),
-    Layout(pose_rows.columns("7", "wxyz"), _OF_POSES, "7"),
+POSES = (pose_layout("16"), pose_layout("12"), pose_layout("quat", "wxyz"))
+"""What the numbers of poses may be where no format is given: their names tell."""
+_OTHERS = (
     Layout(("px", "py", "pz"), ("points",)),
     Layout(("x", "y", "z"), ("points",)),
     Layout(("distance",), ("distances",)),
@@ -41,11 +41,20 @@ def numbered(count: int) -> tuple[str, ...]:
     return tuple(f"q{i + 1}" for i in range(count))
 
 
+def of_poses(poses: tuple[PoseLayout, ...]) -> tuple[Layout, ...]:
+    """The layouts that a file may have, with poses of these."""
+    return (*(Layout(pose.columns, _OF_POSES, pose) for pose in poses), *_OTHERS)
+
+
+STANDARD = of_poses(POSES)
+
+
 def parse_header(
     header: list[str],
     q_names: tuple[str, ...],
     ignore: tuple[str, ...],
     here: str,
+    fixed: tuple[Layout, ...] = STANDARD,
 ) -> tuple[tuple[str, ...], Layout]:
     """The names of the coordinates and the layout of the measurement that a header's columns make,
     with none left.
@@ -61,7 +70,7 @@ def parse_header(
     for names in (q_names, numbers):
         if given > set(names):
             rest = given - set(names)
-            for layout in (*_FIXED, _points(rest)):
+            for layout in (*fixed, _points(rest)):
                 if rest == set(layout.columns):
                     return names, layout
     names = numbers
@@ -77,15 +86,19 @@ def parse_header(
             f"{here}: no column for the coordinate {quote(missing[0])}; expected {join_names(q_names)},"
             f" or q1 ... q{len(q_names)}"
         )
-    raise _fault([word for word in words if word not in names], here)
+    raise _fault([word for word in words if word not in names], here, fixed)
 
 
-def _fault(rest: list[str], here: str) -> InputError | UnknownName:
+def _fault(
+    rest: list[str],
+    here: str,
+    fixed: tuple[Layout, ...],
+) -> InputError | UnknownName:
     """The error of columns that make no measurement."""
     if not rest:
-        return InputError(f"{here}: no column of a measurement; expected {_LAYOUTS}")
+        return InputError(f"{here}: no column of a measurement; expected {_expected(fixed)}")
     there = set(rest)
-    every = [layout for layout in (*_FIXED, _points(there)) if layout.columns]
+    every = [layout for layout in (*fixed, _points(there)) if layout.columns]
     whole = [layout for layout in every if set(layout.columns) <= there]
     if whole:
         most = max(whole, key=lambda layout: len(layout.columns))
@@ -99,11 +112,17 @@ def _fault(rest: list[str], here: str) -> InputError | UnknownName:
     if not there.isdisjoint(begun.columns):
         missing = next(name for name in begun.columns if name not in there)
         return InputError(f"{here}: of the columns {describe(begun)}, {quote(missing)} is missing")
-    close = suggest(rest[0], [name for layout in _FIXED for name in layout.columns], 3)
+    close = suggest(rest[0], [name for layout in fixed for name in layout.columns], 3)
     return UnknownName(
-        f"{here}: {quote(rest[0])} is neither a coordinate nor part of a measurement ({_LAYOUTS});"
+        f"{here}: {quote(rest[0])} is neither a coordinate nor part of a measurement ({_expected(fixed)});"
         f" {close}"
     )
+
+
+def _expected(fixed: tuple[Layout, ...]) -> str:
+    if len(fixed) < len(STANDARD):
+        return ", or ".join(map(describe, fixed))
+    return _LAYOUTS
 
 
 def _points(words: set[str]) -> Layout:

@@ -21,13 +21,17 @@ from ....errors import (
     safe_repr,
     suggest,
 )
-from ....formats.text import csv_rows, pose_rows
+from ....formats.poses import pose_rows
+from ....formats.poses.layout import PoseFormat
+from ....formats.poses.layout import layout as pose_layout
+from ....formats.text import csv_rows
 from ....formats.text.atomic_write import write_whole
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.coordinates import coordinates
 from . import columns
 from .columns import Layout
+from .header import NO_HEADER, SI, Convention, read_header
 from .measurement import Measurement, MeasurementKind, finite_rows, rows_of
 from .points import Distances, Points
 from .poses import EyeInHand, EyeToHand, Poses
@@ -60,14 +64,18 @@ def read(
     kind: MeasurementKind | None = None,
     ignore: Iterable[str] = (),
     progress: csv_rows.Progress | None = None,
+    format: PoseFormat | None = None,
+    mm: bool | None = None,
+    deg: bool | None = None,
     **known: Any,
 ) -> tuple[Array, Measurement]:
     """Joint readings and the measurements made at them, out of a CSV file with one a line.
 
     The first line names the columns, in any order. Coordinates: by the chain's q_names, or q1 ...
-    qm in their order. Measurement, all in m: T00 ... T23 or T00 ... T33 (T, row by row), or x, y,
-    z, qw, qx, qy, qz (unit quaternion): poses; x, y, z or px, py, pz: one point; x1, y1, z1, x2,
-    ...: several; distance. Units are not converted.
+    qm in their order. Measurement: T00 ... T23 or T00 ... T33 (T, row by row), or x, y, z, qw, qx,
+    qy, qz (unit quaternion), or the columns of `format`: poses; x, y, z or px, py, pz: one point;
+    x1, y1, z1, x2, ...: several; distance. Numbers are in rad and m unless `format`, `mm`, `deg` or
+    the first line (`X [mm]`) says something else.
 
     Parameters
     ----------
@@ -81,6 +89,12 @@ def read(
         Columns that are passed over, whatever is in them.
     progress : callable, optional
         Called as progress(characters read, size).
+    format : str, optional
+        What the numbers of poses are, as in `poekin.poses.from_numbers`: "abc", "wpr", "ur", ...
+    mm : bool, optional
+        Whether lengths are in mm: of the measurements, and of joints that slide.
+    deg : bool, optional
+        Whether angles are in degrees: joints, and those of `format`.
     **known : Any
         Other arguments of the kind of measurement: covariance, points, frame, centre, point,
         guess, board, camera.
@@ -108,7 +122,15 @@ def read(
     -----
     Accuracy: the numbers in the file. Source: none, a format of poekin's own.
     """
-    table = read_table(path, chain, kind=kind, ignore=ignore, progress=progress)
+    convention = Convention.of(format, mm, deg)
+    table = read_table(
+        path,
+        chain,
+        kind=kind,
+        ignore=ignore,
+        progress=progress,
+        convention=convention,
+    )
     return table.q, make_measurement(table, kind, known)
 
 
@@ -119,6 +141,7 @@ def read_table(
     kind: MeasurementKind | None = None,
     ignore: Iterable[str] = (),
     progress: csv_rows.Progress | None = None,
+    convention: Convention = SI,
 ) -> Table:
     """The numbers of a file of measurements, before anything is made of them; the file is read
     once, so it may be a pipe. Parameters and errors: those of `read`.
@@ -128,30 +151,31 @@ def read_table(
     if isinstance(ignore, str):
         ignore = (ignore,)
     passed_over = tuple(ignore)
-    names: tuple[str, ...] = ()
-    layout = columns.EMPTY
+    header = NO_HEADER
 
-    def choose(header: list[str], here: str) -> list[int]:
-        nonlocal names, layout
-        joints, layout = columns.parse_header(header, chain.q_names, passed_over, here)
+    def choose(words: list[str], here: str) -> list[int]:
+        nonlocal header
+        header = read_header(words, chain, passed_over, here, convention)
+        layout = header.layout
         if kind is not None and kind not in layout.kinds:
             kinds = " or ".join(layout.kinds)
             those = f"the columns {columns.describe(layout)} are those of {kinds}"
             raise InputError(f"{here}: {those}, and kind is {safe_repr(kind)}")
-        names = (*joints, *layout.columns)
-        numbers = {word: i for i, word in enumerate(header)}
-        return [numbers[name] for name in names]
+        return header.indices
 
     with csv_rows.opened(path) as (stream, where, size):
         rows, lines = csv_rows.read_chosen(stream, choose, where, progress, size)
+    names = header.names
     for i, k in np.argwhere(~np.isfinite(rows)):
         raise InputError(
             f"{where}:{lines[i]}, column {quote(names[k])}: expected a finite number, got "
             f"{rows[i, k]}; leave the line out where nothing was measured"
         )
     sources = [f"{where}:{line}" for line in lines]
+    for k, convert in header.conversions:
+        rows[:, k] = convert(rows[:, k])
     q, values = np.split(rows, [chain.dof], axis=1)
-    return Table(q, values, layout, sources)
+    return Table(q, values, header.layout, sources)
 
 
 def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
@@ -238,10 +262,9 @@ def _values(
 ) -> Array:
     """The measured values of a table as the kind of measurement takes them."""
     values = table.values
-    format = table.layout.format
-    if format:
-        order = "wxyz" if format == "7" else None
-        return pose_rows.to_poses(values, format, order, table.sources.__getitem__)
+    pose = table.layout.pose
+    if pose is not None:
+        return pose_rows.to_poses(values, pose, table.sources.__getitem__)
     if kind == "points":
         count = len(table.layout.columns) // 3
         if count > 1 and "points" not in known:
@@ -259,7 +282,8 @@ def _values(
 def _columns(measurement: Measurement) -> tuple[tuple[str, ...], Array]:
     """The names and values (N, k) of the columns of a measurement."""
     if isinstance(measurement, (Poses, EyeInHand, EyeToHand)):
-        return pose_rows.columns("12"), pose_rows.to_rows(np.asarray(measurement.T), "12")
+        twelve = pose_layout("12")
+        return twelve.columns, pose_rows.to_rows(np.asarray(measurement.T), twelve)
     if isinstance(measurement, Points):
         p = np.asarray(measurement.p)
         count = p.shape[1]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ....formats import chain_toml
-from ....formats.chain_toml import CALIBRATED, FORMAT, VERSION
+from ....formats.chain_toml import CALIBRATED, FORMAT, NOMINAL, VERSION
 from ....formats.text import toml_text
 from ....formats.text.atomic_write import write_whole
 from ....formats.text.toml_text import Keys
@@ -32,7 +32,7 @@ _TOP = (
     "joints",
     "outliers",
     "covariance",
-    "nominal",
+    NOMINAL,
     CALIBRATED,
     "identification",
     "frames",
@@ -61,7 +61,7 @@ def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
         "joints": found.error_model.moving,
         "outliers": found.outliers,
         "covariance": found.covariance,
-        "nominal": chain_toml.to_data(found.nominal),
+        NOMINAL: chain_toml.to_data(found.nominal),
         CALIBRATED: chain_toml.to_data(found.chain),
         "identification": found.identification,
         "frames": found.frames,
@@ -81,7 +81,7 @@ def load(path: str | os.PathLike[str]) -> CalibrationData:
     """Read what `save` wrote; see `calibration.load`. Raises: FileError, ModelError."""
     opened = chain_toml.opened(path)
     keys = Keys(opened.data, opened.place, _TOP)
-    nominal = chain_toml.to_chain(keys.table("nominal"))
+    nominal = chain_toml.to_chain(keys.table(NOMINAL))
     chain = chain_toml.to_chain(keys.table(CALIBRATED))
     model = toml_checks.error_model(keys, nominal)
     frames = toml_checks.frames(keys.table("frames"))

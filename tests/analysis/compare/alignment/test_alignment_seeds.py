@@ -99,7 +99,7 @@ def test_parallel_axes_that_point_opposite_ways_are_turned_with_the_base(ways, x
     rows = [screw.revolute([0, 0, way], [x, 0, 0]) for way, x in zip(ways, places, strict=False)]
     chain = Chain.from_space(rows, np.eye(4))
     result = compare(chain, chain.rebased(se3.exp(xi)), samples=1)
-    assert (result.equal, result.differing, result.tool) == (
+    assert (result.same_arm, result.differing, result.tool) == (
         True,
         (),
         pytest.approx(np.eye(4), abs=1e-9),

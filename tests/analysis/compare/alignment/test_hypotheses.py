@@ -72,7 +72,19 @@ def test_one_joint_that_differs_in_zero_and_direction_costs_as_much_as_one_chang
 def test_another_link_is_likelier_than_an_axis_that_zeros_help_and_less_so_than_an_axis_alone(
     zeros,
 ):
-    assert cost(axes=1, frames=2) < cost(axes=3, zeros=zeros, link=2) < cost(axes=1, zeros=zeros)
+    link = cost(zeros=2, link=2) - (1.0 + 2.5)
+    assert cost(axes=1, frames=2) < link < cost(axes=1, zeros=zeros)
+
+
+def test_beside_another_link_each_difference_counts_and_axes_behind_it_do_not():
+    alone = cost(axes=2, link=1) - (3 + 2)
+    assert cost(axes=3, link=1) == cost(axes=12, link=1) == cost(axes=2, link=1)
+    assert cost(axes=2, zeros=1, link=1) - cost(axes=2, link=1) == 1.0
+    assert cost(axes=2, zeros=3, link=1) - cost(axes=2, zeros=1, link=1) == 5.0
+    # An axis in front counts as one of several: 3, and the fourth root of 16 tolerances
+    assert cost(axes=3, link=2) - cost(axes=3, link=1) == 5.0
+    # Three zeros and an axis are dearer than a zero and a link of parallel axes
+    assert alone + 1.0 < cost(axes=1, zeros=3)
 
 
 def test_of_several_moved_axes_it_counts_how_far_they_are():

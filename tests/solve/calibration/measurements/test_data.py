@@ -393,7 +393,7 @@ def test_a_long_file_is_read_in_parts_in_its_order(tmp_path):
 ])  # fmt: skip
 def test_up_to_seven_columns_are_named_and_of_more_the_first_and_last(count, said):
     assert columns.describe(columns._points({f"x{count}", *"abcdefgh"})) == said
-    assert columns.describe(columns._FIXED[2]) == "x y z qw qx qy qz"
+    assert columns.describe(columns.STANDARD[2]) == "x y z qw qx qy qz"
 
 
 def test_the_coordinates_that_are_missing_are_those_of_the_names_that_are_there(tmp_path):

@@ -268,6 +268,7 @@ def test_offsets_and_gains_leave_the_limits_and_the_constants_of_the_nominal_arm
         pk.se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
         limits=[(-1, 2), (0, 0.5)],
         offset=[0.3, 0.1],
+        velocity_limits=[2.5, 0.1],
     )
     q = nominal.random(0, 3)
     for kinds, p in (
@@ -277,6 +278,7 @@ def test_offsets_and_gains_leave_the_limits_and_the_constants_of_the_nominal_arm
     ):
         found = ErrorModel(nominal, kinds, None).chain(np.array(p))
         np.testing.assert_array_equal(found.limits, nominal.limits)
+        np.testing.assert_array_equal(found.velocity_limits, nominal.velocity_limits)
         np.testing.assert_array_equal(found.offset, nominal.offset)
         np.testing.assert_allclose(
             found.fk(q), ErrorModel(nominal, kinds, None).poses(np.array(p), q), rtol=0, atol=1e-14

@@ -1,0 +1,1 @@
+"""Differences of two models, joint by joint and convention by convention."""

@@ -1,0 +1,80 @@
+"""Joints of two models matched in order, the longer one without those that can be dropped."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ....groups.arrays import Array
+from ....model.chain import Chain
+from ...axis_lines import uncoupled_at_zero
+from ..unmatched_joints import droppable, without
+from .conventions import Asked
+
+LEAST = 60
+"""Configurations within the limits of either model at which alignments are weighed."""
+
+
+class Matched(NamedTuple):
+    """Two chains at rest with equal numbers of joints, the couplings of these, values x (samples,
+    n) within a's limits, b's values y at the same coordinates, others within a's and within b's;
+    extra, as `Comparison.unmatched_joints`.
+    """
+
+    a: Chain
+    b: Chain
+    C_a: Array
+    C_b: Array
+    x: Array
+    y: Array
+    both: tuple[Array, Array]
+    extra: tuple[str, ...] | None = None
+
+
+def matched(a: Chain, b: Chain, asked: Asked) -> Matched | None:
+    """Both chains at rest, the longer one without the joints that can be dropped; None where none
+    can.
+    """
+    one = uncoupled_at_zero(a)
+    other = uncoupled_at_zero(b)
+    q = a.random(asked.seed, asked.samples)
+    x = q @ a.coupling.T
+    y = x
+    if a.coupling.shape == b.coupling.shape:
+        y = q @ b.coupling.T
+    both = _values(a, asked.seed, LEAST), _values(b, asked.seed, LEAST)
+    pair = Matched(one, other, a.coupling, b.coupling, x, y, both)
+    if len(one.screws) == len(other.screws):
+        return pair
+    found = droppable(one, other, asked.tol)
+    if found is None:
+        return None
+    ks, held = found
+    if len(one.screws) < len(other.screws):
+        return pair._replace(
+            b=without(other, ks, held),
+            C_b=np.delete(b.coupling, ks, axis=0),
+            both=(both[0], np.delete(both[1], ks, axis=1)),
+            extra=("b", *_names(other, ks)),
+        )
+    return pair._replace(
+        a=without(one, ks, held),
+        C_a=np.delete(a.coupling, ks, axis=0),
+        x=np.delete(x, ks, axis=1),
+        y=np.delete(y, ks, axis=1),
+        both=(np.delete(both[0], ks, axis=1), both[1]),
+        extra=("a", *_names(one, ks)),
+    )
+
+
+def _values(chain: Chain, seed: int, count: int) -> Array:
+    """Random values (count, n) of the joints within their limits."""
+    return chain.random(seed, count) @ chain.coupling.T
+
+
+def _names(
+    chain: Chain,
+    ks: tuple[int, ...],
+) -> tuple[str, ...]:
+    return tuple(chain.joint_names[k] for k in ks)

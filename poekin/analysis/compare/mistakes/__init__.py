@@ -1,0 +1,1 @@
+"""Mistakes in a whole file that a comparison recognises."""

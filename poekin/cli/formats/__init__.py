@@ -1,0 +1,1 @@
+"""Formats of poses and units of numbers on the command line."""

@@ -1,0 +1,63 @@
+"""Base and tool that `poekin compare` aligned by, as a controller takes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...analysis.compare.comparison import Comparison
+from ...errors import InputError
+from ...formats.poses import pose_rows
+from ...formats.poses.layout import Layout
+from ...formats.poses.write import line
+from ...groups.arrays import Array
+from ..kinematics.poses import pose_layout
+from .units import Units
+
+DECIMALS = 12
+"""Of printed numbers: what is left of 0 is noise there."""
+
+
+def frame_layout(
+    format: str | None,
+    quaternion: str | None,
+    mm: bool | None,
+    deg: bool | None,
+) -> Layout | None:
+    """Layout of --format, None without one. Raises: InputError."""
+    if format is not None:
+        return pose_layout(format, quaternion, Units(mm, deg))
+    given = {"--quaternion": quaternion, "--mm": mm, "--deg": deg}
+    for option, value in given.items():
+        if value is not None:
+            raise InputError(f"{option}: expected together with --format only")
+    return None
+
+
+def frame_lines(result: Comparison, chosen: Layout) -> list[str]:
+    """Sentences that name the frames, with their numbers."""
+    return [
+        f"{title} ({chosen.describe()}): {line(np.round(row, DECIMALS), chosen)}"
+        for title, _, row in _frames(result, chosen)
+    ]
+
+
+def frame_numbers(result: Comparison, chosen: Layout) -> dict[str, object]:
+    """JSON keys of the frames' numbers and their units."""
+    named = {key: row.tolist() for _, key, row in _frames(result, chosen)}
+    about = {
+        "format": chosen.format,
+        "columns": list(chosen.columns),
+        "units": list(chosen.units),
+    }
+    return about | named
+
+
+def _frames(result: Comparison, chosen: Layout) -> Iterator[tuple[str, str, Array]]:
+    for title, key, T in (
+        ("base of B in the base of A", "base_numbers", result.base),
+        ("tool of A in the tool of B", "tool_numbers", result.tool),
+    ):
+        if T is not None:
+            yield title, key, pose_rows.to_rows(np.asarray(T)[None], chosen)[0]

@@ -1,0 +1,150 @@
+"""Headers of CSV files: which column is which name, and the unit that a header may say.
+
+`X [mm]`, `X (mm)` and `X_mm` are the column X in mm. A name is taken in another case where only one
+name fits.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ...errors import InputError, UnknownName, quote, suggest
+
+_BRACKETS = re.compile(r"(.*)[\[(]([^\[\]()]*)[\])]", re.DOTALL)
+_SUFFIX = re.compile(r"(.*)_(mm|m|deg|rad)", re.IGNORECASE | re.DOTALL)
+_UNITS = {
+    **dict.fromkeys(("m", "metre", "metres", "meter", "meters"), "m"),
+    **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), "mm"),
+    **dict.fromkeys(("rad", "radian", "radians"), "rad"),
+    **dict.fromkeys(("deg", "degree", "degrees", "°"), "deg"),
+    **dict.fromkeys(("s", "sec", "second", "seconds"), "s"),
+}
+_SAME_KIND = {"m": "mm", "mm": "m", "rad": "deg", "deg": "rad"}
+Conversion = Callable[[np.ndarray], np.ndarray]
+CONVERSIONS: dict[tuple[str, str], Conversion] = {
+    ("mm", "m"): lambda x: x / 1000.0,
+    ("m", "mm"): lambda x: x * 1000.0,
+    ("deg", "rad"): np.deg2rad,
+    ("rad", "deg"): np.rad2deg,
+}
+
+
+class Columns(NamedTuple):
+    """Columns that a file is to have.
+
+    Fields: names, in the order in which they are taken; what, their kind in messages; units, that
+    each is to come in, where a header may say another, "" for none; said, units that the user said, which a
+    header may not contradict; besides, columns that are passed over; first, columns that a header
+    may name together, too: where it does, they are taken before the others, in s; last, names at the end
+    that a file may leave out together.
+    """
+
+    names: tuple[str, ...]
+    what: str
+    units: tuple[str, ...] = ()
+    said: tuple[str, ...] = ()
+    besides: tuple[str, ...] = ()
+    first: tuple[str, ...] = ()
+    last: tuple[str, ...] = ()
+
+    def with_first(self) -> Columns:
+        """Columns of a file that has the first ones, too."""
+        units = ("s",) * len(self.first) + self.units
+        return self._replace(names=self.first + self.names, units=units)
+
+    def without_last(self) -> Columns:
+        """Columns of a file that leaves the last ones out."""
+        count = len(self.names) - len(self.last)
+        return self._replace(names=self.names[:count], units=self.units[:count])
+
+
+class Heading(NamedTuple):
+    """A header's word: the name of its column and the unit it says, "" for none."""
+
+    name: str
+    unit: str
+
+
+def heading(word: str, names: Sequence[str]) -> Heading:
+    """Name and unit of a word of a header; of none of the names, the word itself."""
+    exact = _named(word, names)
+    if exact:
+        return Heading(exact, "")
+    for pattern in (_BRACKETS, _SUFFIX):
+        found = pattern.fullmatch(word)
+        if found and found[2].strip().lower() in _UNITS:
+            name = found[1].rstrip()
+            return Heading(_named(name, names) or name, _UNITS[found[2].strip().lower()])
+    return Heading(word, "")
+
+
+def _named(word: str, names: Sequence[str]) -> str:
+    """The name that a word is, in another case where only one is; "" for none."""
+    if word in names:
+        return word
+    folded = [name for name in names if name.casefold() == word.casefold()]
+    return folded[0] if len(folded) == 1 else ""
+
+
+def order(headings: Sequence[Heading], columns: Columns, where: str) -> list[int]:
+    """Indices of the columns in the order of their names. Raises: UnknownName, InputError."""
+    words = [heading.name for heading in headings]
+    names = columns.names
+    for word in words:
+        if word not in names and word not in columns.besides:
+            raise UnknownName(
+                f"{where}: {quote(word)} is neither a number nor a {columns.what};"
+                f" {suggest(word, names)}"
+            )
+    missing = [n for n in names if n not in words]
+    if missing or len(set(words)) != len(words):
+        fault = "a name appears twice"
+        if missing:
+            fault = f"{quote(missing[0])} is missing"
+        raise InputError(
+            f"{where}: the header has to name each of the {len(names)} {columns.what}s once; {fault}"
+        )
+    return [words.index(n) for n in names]
+
+
+def conversions(
+    headings: Sequence[Heading],
+    columns: Columns,
+    where: str,
+) -> dict[int, Conversion]:
+    """By the number of a name, what makes its unit of the one that the header says.
+
+    Raises: InputError for a unit that the column cannot have, that contradicts what the user said,
+    or that not all columns of its kind have.
+    """
+    unit_of = dict(headings)
+    found: dict[int, Conversion] = {}
+    common: dict[str, tuple[str, str]] = {}
+    units = itertools.chain(columns.units, itertools.repeat(""))
+    for k, (name, wanted) in enumerate(zip(columns.names, units, strict=False)):
+        unit = unit_of[name]
+        if wanted:
+            kind = min(wanted, _SAME_KIND.get(wanted, wanted))
+            other, same = common.setdefault(kind, (name, unit))
+            if same != unit:
+                raise InputError(
+                    f"{where}: {quote(other)} is in {same or 'no unit'} and {quote(name)} in"
+                    f" {unit or 'no unit'}; expected one unit, said with each of them or with none"
+                )
+        if not unit or unit == wanted:
+            continue
+        if unit != _SAME_KIND.get(wanted):
+            expected = " or ".join(filter(None, (wanted, _SAME_KIND.get(wanted))))
+            raise InputError(f"{where}: {quote(name)} in {unit}; expected {expected or 'no unit'}")
+        if wanted in columns.said:
+            raise InputError(
+                f"{where}: the header says that {quote(name)} is in {unit}, and it was said to be in"
+                f" {wanted}; leave one of the two out"
+            )
+        found[k] = CONVERSIONS[unit, wanted]
+    return found

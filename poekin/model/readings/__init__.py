@@ -1,0 +1,1 @@
+"""Coupled readings: joints whose values are sums of what a controller displays."""

@@ -1,0 +1,1 @@
+"""Calibration from a controller's own forward kinematics: pairs without noise, printed digits."""

@@ -1,0 +1,124 @@
+"""Worst case of what a fit to poses makes of errors in joint readings and poses that are bounded.
+
+At the fit p <- p - G e, G = (J^T W J)^-1 J^T W, e the errors of the poses. A reading q_k that is off
+by h_k at most turns and moves the pose by J_h,k h_k; a position is off by h at most in each axis, a
+rotation by r at most about any axis. What is linear in p, y = Y p, is then off by at most
+
+    sum over the pairs i of  sum_k |Y G_i J_h,ik| h_k + |Y G_i|_rotation r + sum |Y G_i|_position h
+
+to first order in these errors: nothing is assumed of how they are distributed.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, cast
+
+import numpy as np
+
+from ....groups.arrays import Array
+from ....model.checks import read_only
+from ..diagnostics.identification import RANK
+from ..fit.noise import NoiseEstimate
+from ..measurements.measurement import per_error
+from ..measurements.poses import Poses, pose_error_jacobian
+from ..model.error_model import ErrorModel
+from ..result import CalibrationData
+
+ROUNDING = 2e-14
+"""Least error of a pose, rad and reaches: that of forward kinematics in double precision."""
+_STEP = 1e-5
+"""Step of a difference quotient of the screws, whose second derivatives are about their size."""
+_AT_ONCE = 2_000_000  # numbers of one product
+
+
+class ReadingErrors(NamedTuple):
+    """Largest error of each coordinate (m,), rad or m; of a rotation, rad; of a position in each
+    axis, m.
+    """
+
+    joints: Array
+    rotation: float
+    position: float
+
+
+class Propagation(NamedTuple):
+    """Linear estimate at the end of a fit to poses.
+
+    errors (N, 6), rad and m; their Jacobian J (N, 6, P); gain G (P, N, 6); hybrid Jacobian
+    (N, 6, m) of each pair; standard deviations (6,) that the errors were weighted with.
+    """
+
+    errors: Array
+    design: Array
+    gain: Array
+    jacobian: Array
+    deviations: Array
+
+
+def propagation(found: CalibrationData, q: Array, poses: Poses) -> Propagation:
+    """The linear estimate at the end of a fit to poses measured at q (N, m)."""
+    T, D = found.error_model.poses_and_twists(found.values, q)
+    errors = poses.errors(T, [])
+    J, _ = poses.jacobian(T, [], errors, D)
+    angle, length = cast(NoiseEstimate, found.noise_std[0])  # no covariance was given
+    deviations = per_error(poses, angle, length)
+    lengths = [parameter.unit == "m" for parameter in found.parameters]
+    scale = np.where(lengths, found.nominal.reach, 1.0)
+    whitened = J / deviations[:, None] * scale
+    inverse = np.linalg.pinv(whitened.reshape(-1, len(scale)), rcond=RANK)
+    gain = scale[:, None] * inverse
+    return Propagation(
+        read_only(errors),
+        read_only(J),
+        read_only(gain.reshape(len(scale), -1, 6) / deviations),
+        read_only(found.chain.jacobian(q, "hybrid")),
+        read_only(deviations),
+    )
+
+
+def worst_case(Y: Array, fit: Propagation, largest: ReadingErrors) -> Array:
+    """Largest error (...,) of Y p, Y (..., P)."""
+    pairs = len(fit.errors)
+    rows = Y.reshape(-1, Y.shape[-1])
+    flat = fit.gain.reshape(len(fit.gain), -1)
+    bound = np.empty(len(rows))
+    count = max(1, _AT_ONCE // (6 * pairs))
+    for start in range(0, len(rows), count):
+        some = slice(start, start + count)
+        L = (rows[some] @ flat).reshape(-1, pairs, 6)
+        of_joints = np.abs((L[:, :, None] @ fit.jacobian)[:, :, 0]) @ largest.joints
+        of_rotations = np.linalg.norm(L[..., :3], axis=-1) * largest.rotation
+        of_positions = np.abs(L[..., 3:]).sum(axis=-1) * largest.position
+        bound[some] = (of_joints + of_rotations + of_positions).sum(axis=1)
+    return bound.reshape(Y.shape[:-1])
+
+
+def screw_bounds(found: CalibrationData, fit: Propagation, largest: ReadingErrors) -> Array:
+    """Largest error (n, 6) of each entry of the screws, with the rounding of doubles and a bound on
+    what is of second order.
+
+    Where first order tilts an axis by a and moves it by s, e^eta turns omega by a^2 / 2 more, and v
+    by a^2 |v| / 2 + a s: twice that is added.
+    """
+    chain = found.chain
+    first = worst_case(screw_jacobian(found.error_model, found.values), fit, largest)
+    tilt, shift = np.linalg.norm(first.reshape(-1, 2, 3), axis=2).T
+    moments = np.linalg.norm(chain.screws[:, 3:], axis=1)
+    turned = tilt**2 + ROUNDING
+    moved = tilt**2 * moments + 2.0 * tilt * shift + ROUNDING * (chain.reach + moments)
+    return first + np.repeat(np.stack([turned, moved], axis=1), 3, axis=1)
+
+
+def screw_jacobian(model: ErrorModel, p: Array) -> Array:
+    """Derivatives (n, 6, P) of the screws in the base frame, by central differences."""
+    columns = []
+    for step in _STEP * np.eye(len(p)):
+        moved = model.joints(p + step).screws - model.joints(p - step).screws
+        columns.append(moved / (2.0 * _STEP))
+    return np.stack(columns, axis=-1)
+
+
+def pose_jacobian(model: ErrorModel, p: Array, q: Array) -> Array:
+    """Derivatives (N, 6, P) of the pose's rotation vector and position, in base axes, at q (N, m)."""
+    T, D = model.poses_and_twists(p, q)
+    return pose_error_jacobian(T, np.zeros((len(T), 6)), D)

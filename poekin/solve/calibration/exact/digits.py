@@ -1,0 +1,100 @@
+"""Digits that numbers were printed with: the decimal grid that all of them lie on, if there is one."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ....groups import rpy, so3
+from ....groups.arrays import Array
+
+MOST = 9
+"""Decimals of a degree or a millimetre up to which digits are looked for: 1e-11 rad, 1e-12 m."""
+_OFF = 0.01  # of a unit of the last digit: what is nearer to it than this lies on the grid
+# of angles of rotations, which rounding moves where two of their axes are nearly parallel
+_SHARE = 0.9
+
+
+class Grid(NamedTuple):
+    """Multiples of 10^-places units: numbers printed with so many decimals.
+
+    Fields: size of the unit in rad or m, its symbol, decimals.
+    """
+
+    unit: float
+    symbol: str
+    places: int
+
+    @property
+    def half(self) -> float:
+        """Half a unit of the last digit, rad or m: the largest error of rounding."""
+        return 0.5 * self.unit * 10.0**-self.places
+
+    def __str__(self) -> str:
+        gap = " "
+        if self.symbol == "°":
+            gap = ""
+        return f"{10.0**-self.places:g}{gap}{self.symbol}"
+
+
+class RotationGrid(NamedTuple):
+    """Grid of the numbers by which rotations were printed, what they are, and the largest angle
+    (rad) by which their rounding turns a frame.
+    """
+
+    grid: Grid
+    what: str
+    radius: float
+
+
+_DEGREE = Grid(math.radians(1.0), "°", 0)
+_RADIAN = Grid(1.0, "rad", 0)
+_MILLIMETRE = Grid(1e-3, "mm", 0)
+_PLAIN = Grid(1.0, "1", 0)
+
+
+def angle_grid(values: Array, share: float = 1.0) -> Grid | None:
+    """Coarsest grid of angles, in degrees or rad, that this share of them lies on."""
+    return _coarsest(values, (_DEGREE, _RADIAN), share)
+
+
+def length_grid(values: Array) -> Grid | None:
+    """Coarsest grid of lengths, m, in millimetres, that all of them lie on."""
+    return _coarsest(values, (_MILLIMETRE,), 1.0)
+
+
+def rotation_grid(R: Array) -> RotationGrid | None:
+    """Grid of rotations (N, 3, 3): of roll, pitch and yaw, of the rotation vector, or of R itself.
+
+    Numbers off by h at most turn the frame by at most sqrt(6) h (three axes, each orthogonal to the
+    next: |E|^2 = 1 + |cos| <= 2 times |h|^2 <= 3 h^2), sqrt(3) h (the Jacobian of exp is no longer
+    than 1) and 3 h / sqrt(2) (half of R - R^T counts). Other sequences of angles and quaternions,
+    which are made unit again where they are read, leave no grid.
+    """
+    found = angle_grid(rpy.angles(R), _SHARE)
+    if found is not None:
+        return RotationGrid(found, "roll, pitch, yaw", math.sqrt(6.0) * found.half)
+    found = angle_grid(so3.log(R), _SHARE)
+    if found is not None:
+        return RotationGrid(found, "rotation vector", math.sqrt(3.0) * found.half)
+    found = _coarsest(R, (_PLAIN,), 1.0)
+    if found is not None:
+        return RotationGrid(found, "matrix", 3.0 / math.sqrt(2.0) * found.half)
+    return None
+
+
+def _coarsest(
+    values: Array,
+    units: tuple[Grid, ...],
+    share: float,
+) -> Grid | None:
+    """The grid of fewest decimals that this share of the values lies on, in one of these units."""
+    for places in range(MOST + 1):
+        for unit in units:
+            steps = values / unit.unit * 10.0**places
+            off = np.abs(steps - np.round(steps))
+            if np.quantile(off, share) <= _OFF:
+                return unit._replace(places=places)
+    return None

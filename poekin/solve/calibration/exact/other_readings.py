@@ -1,0 +1,168 @@
+"""Pairs read otherwise: another base and tool, coupled readings, reversed joints, another order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from ....errors import InputError, escape_unprintable, quote
+from ....groups import se3, so3
+from ....groups.arrays import Array
+from ....model.chain import Chain
+from ..calibration import Calibration
+from ..diagnostics.explanation import Size, far
+from ..diagnostics.messages import MOST
+from ..fit import initial_guess
+from ..measurements.poses import Poses, pose_errors
+from .bounds import Propagation
+
+_BETTER = 4.0  # how many times better another reading of the pairs has to explain them
+_ODD = 30.0  # times the median: a pair that misses by more stands out
+
+
+class Aligned(NamedTuple):
+    """An arm in the base and tool frames of poses, and the move in words, "" for none."""
+
+    chain: Chain
+    moved: str = ""
+
+
+class _Reading(NamedTuple):
+    """The joint readings taken otherwise, and that in words."""
+
+    words: str
+    q: Array
+
+
+def aligned(chain: Chain, q: Array, poses: Poses) -> Aligned:
+    """The arm in the frames of the poses (N, 4, 4) where it is near them in no others.
+
+    Source: hand-eye calibration, T = X^-1 f(q) Z.
+    """
+    if not far(_miss(chain.fk(q), poses.T), chain.reach):
+        return Aligned(chain)
+    frames = _frames(chain, q, poses)
+    if frames is None:
+        return Aligned(chain)
+    X, Z = frames
+    moved = chain.rebased(se3.inverse(X)).retooled(Z)
+    if far(_miss(moved.fk(q), poses.T), chain.reach):
+        return Aligned(chain)
+    return Aligned(
+        moved,
+        f"the controller's frames are others: its base is moved by {_size(X)} from "
+        f"{quote(chain.base)}, its flange by {_size(Z)} from {quote(chain.tip)}, by the nominal arm",
+    )
+
+
+def hint(chain: Chain, q: Array, poses: Poses) -> str:
+    """End of a message: the reading of the pairs that explains them much better, "" for none."""
+    as_given = _missed(chain, q, poses)
+    best = min(
+        ((_missed(chain, other.q, poses), other.words) for other in _readings(chain, q)),
+        default=(np.inf, ""),
+    )
+    length, words = best
+    if not length * _BETTER < as_given:
+        return ""
+    return f"; with {words}, the nominal arm is off by {1e3 * length:.3g} mm only (median)"
+
+
+def slight_coupling(chain: Chain, q: Array, fit: Propagation) -> str:
+    """End of a message: the readings that a joint follows by a small ratio, or is off from its own
+    by, where that explains most of what a fit leaves; "" for none.
+
+    The residuals r are regressed on what is left of J_h,j q_i, for each pair of readings, when the
+    parameters have taken up their part.
+    """
+    r = (fit.errors / fit.deviations).ravel()
+    moved = fit.jacobian[:, :, :, None] * q[:, None, None, :]
+    columns = moved.reshape(len(q) * 6, -1)
+    gain = fit.gain.reshape(len(fit.gain), -1)
+    columns = columns - fit.design.reshape(len(columns), -1) @ (gain @ columns)
+    columns /= np.tile(fit.deviations, len(q))[:, None]
+    squares = np.sum(columns**2, axis=0)
+    products = r @ columns
+    gains = products**2 / np.maximum(squares, np.finfo(float).tiny)
+    best = int(np.argmax(gains))
+    if not 1.0 - gains[best] / (r @ r) < 1.0 / _BETTER**2:
+        return ""
+    j, i = divmod(best, chain.dof)
+    ratio = -products[best] / squares[best]
+    joint, reading = (escape_unprintable(chain.q_names[k], 40) for k in (j, i))
+    if i == j:
+        return f"; most of it is as if {joint} went {1.0 + ratio:.9g} times its reading"
+    sign = "-" if ratio < 0 else "+"
+    return f"; most of it is as if {joint} = {joint} {sign} {abs(ratio):.4g} {reading}"
+
+
+def odd_pairs(found: Calibration, count: int) -> str:
+    """End of a message: the pairs that stand out where a robust fit explains the others; "" for
+    none.
+    """
+    size = found.after.length / found.nominal.reach + found.after.angle
+    odd = np.flatnonzero(size > _ODD * np.median(size))
+    if not 0 < len(odd) <= count // 4:
+        return ""
+    rows = ", ".join(map(str, odd[:MOST].tolist()))
+    return f"; pairs {rows} stand out (rows of q, from 0), the others fit better without them"
+
+
+def _missed(chain: Chain, q: Array, poses: Poses) -> float:
+    """Median distance, m, with base and tool free; infinite where the rotations fit none."""
+    frames = _frames(chain, q, poses)
+    if frames is None:
+        return np.inf
+    X, Z = frames
+    miss = _miss(se3.inverse(X) @ chain.fk(q) @ Z, poses.T)
+    if far(miss, chain.reach):
+        return np.inf
+    return miss.length
+
+
+def _readings(chain: Chain, q: Array) -> Iterator[_Reading]:
+    """Readings that follow one another, are reversed, or stand in another order."""
+    names = [escape_unprintable(name, 40) for name in chain.q_names]
+    turns = [k for k in range(chain.dof) if chain.is_angle(k)]
+    for i in turns:
+        for j in turns:
+            for sign, word in ((1.0, "+"), (-1.0, "-")):
+                if i == j:
+                    continue
+                other = q.copy()
+                other[:, i] += sign * q[:, j]
+                words = f"{names[i]} = {names[i]} {word} {names[j]}"
+                yield _Reading(f"the readings coupled, {words!r}", other)
+    for i in range(chain.dof):
+        other = q.copy()
+        other[:, i] *= -1.0
+        yield _Reading(f"{names[i]} reversed", other)
+    for i in range(chain.dof):
+        for j in range(i):
+            other = q.copy()
+            other[:, [i, j]] = q[:, [j, i]]
+            yield _Reading(f"{names[j]} and {names[i]} exchanged", other)
+
+
+def _frames(chain: Chain, q: Array, poses: Poses) -> tuple[Array, Array] | None:
+    """Base X and tool Z of T = X^-1 f(q) Z; None where the rotations are those of no two frames."""
+    try:
+        return initial_guess.hand_eye(chain.fk(q), poses.T)
+    except InputError:
+        return None
+
+
+def _miss(T: Array, measured: Array) -> Size:
+    """Median distance and angle between poses (N, 4, 4)."""
+    errors = pose_errors(T, measured).reshape(-1, 2, 3)
+    angle, length = np.median(np.linalg.norm(errors, axis=2), axis=0).tolist()
+    return Size(length, angle)
+
+
+def _size(T: Array) -> Size:
+    return Size(
+        float(np.linalg.norm(T[:3, 3])),
+        float(np.linalg.norm(so3.log(T[:3, :3]))),
+    )

@@ -1,0 +1,132 @@
+"""The first line of a file of measurements: columns, what the numbers of poses are, and units."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from ....errors import PoekinError
+from ....formats.poses.layout import Layout as PoseLayout
+from ....formats.poses.layout import LengthUnit
+from ....formats.poses.layout import layout as pose_layout
+from ....formats.poses.read import said_units
+from ....formats.text import csv_header
+from ....formats.text.csv_header import Columns, Conversion, Heading
+from ....model.chain import Chain
+from .columns import POSES, Layout, numbered, of_poses, parse_header
+
+
+class Convention(NamedTuple):
+    """Format of poses and units that a user said of a file; None where nothing was said."""
+
+    pose: PoseLayout | None = None
+    mm: bool | None = None
+    deg: bool | None = None
+
+    @classmethod
+    def of(cls, format: Any, mm: bool | None, deg: bool | None) -> Convention:
+        """Convention of a format's name; the order of a quaternion is in its columns' names. Raises:
+        InputError.
+        """
+        if format is None:
+            return cls(None, mm, deg)
+        order = "wxyz" if format in ("quat", "7") else None
+        return cls(pose_layout(format, order, mm=mm, deg=deg), mm, deg)
+
+    @property
+    def length(self) -> LengthUnit:
+        """Unit of lengths."""
+        return "mm" if self.mm else "m"
+
+    def layouts(self) -> tuple[tuple[Layout, ...], ...]:
+        """The layouts that a file may have, in the order in which they are tried."""
+        if self.pose is None:
+            return (of_poses(tuple(pose._replace(length=self.length) for pose in POSES)),)
+        own, *others = of_poses((self.pose,))
+        return (own,), tuple(others)
+
+    def joint_unit(self, chain: Chain, k: int) -> str:
+        """Unit of a coordinate."""
+        if chain.is_angle(k):
+            return "deg" if self.deg else "rad"
+        return self.length
+
+
+class Header(NamedTuple):
+    """Columns of a file: their names and indices, coordinates first; the layout of the others; and
+    what makes the units of a column, by its number, those that are taken.
+    """
+
+    names: tuple[str, ...]
+    indices: list[int]
+    layout: Layout
+    conversions: list[tuple[int, Conversion]]
+
+
+NO_HEADER = Header((), [], Layout((), ()), [])
+SI = Convention()
+
+
+def read_header(
+    words: list[str],
+    chain: Chain,
+    ignore: tuple[str, ...],
+    here: str,
+    convention: Convention = SI,
+) -> Header:
+    """The columns that a header's words name, with their units.
+
+    Raises: UnknownName, InputError, that begin with `here`.
+    """
+    faults: list[PoekinError] = []
+    for layouts in convention.layouts():
+        headings = _headings(words, chain, ignore, layouts)
+        try:
+            names = [heading.name for heading in headings]
+            joints, layout = parse_header(names, chain.q_names, ignore, here, layouts)
+            return _header(headings, joints, layout, chain, convention, here)
+        except PoekinError as fault:
+            faults.append(fault)
+    raise faults[0]
+
+
+def _headings(
+    words: list[str],
+    chain: Chain,
+    ignore: tuple[str, ...],
+    layouts: tuple[Layout, ...],
+) -> list[Heading]:
+    """Names and units of a header's words, of those that a file may have."""
+    measured = [name for layout in layouts for name in layout.columns]
+    known = tuple(dict.fromkeys((*chain.q_names, *numbered(chain.dof), *measured)))
+    return [
+        Heading(word, "") if word in ignore else csv_header.heading(word, known) for word in words
+    ]
+
+
+def _header(
+    headings: list[Heading],
+    names: tuple[str, ...],
+    layout: Layout,
+    chain: Chain,
+    convention: Convention,
+    here: str,
+) -> Header:
+    said = said_units(convention.mm, convention.deg)
+    units = tuple(convention.joint_unit(chain, k) for k in range(chain.dof))
+    of_values: tuple[str, ...] = (convention.length,) * len(layout.columns)
+    if layout.pose is not None:
+        of_values = layout.pose.units
+    joints = Columns(names, "coordinate", units, said)
+    measured = Columns(layout.columns, "column", of_values, said)
+    found = list(csv_header.conversions(headings, joints, here).items())
+    values = csv_header.conversions(headings, measured, here)
+    found += [(chain.dof + k, convert) for k, convert in values.items()]
+    # then to rad and m; poses are made of numbers in their own units
+    taken = units if layout.pose is not None else units + of_values
+    to_si = {"mm": "m", "deg": "rad"}
+    for k, unit in enumerate(taken):
+        if unit in to_si:
+            found.append((k, csv_header.CONVERSIONS[unit, to_si[unit]]))
+    every = (*names, *layout.columns)
+    places = {heading.name: i for i, heading in enumerate(headings)}
+    return Header(every, [places[name] for name in every], layout, found)

@@ -1,0 +1,1 @@
+"""Time-optimal parameterization of a path of the coordinates."""

@@ -1,0 +1,1 @@
+"""Trajectories of the coordinates, as robot controllers take them."""

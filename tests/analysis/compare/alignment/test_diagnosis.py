@@ -1,0 +1,118 @@
+"""Models of which most axes differ are aligned to all of them, or left as they stand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from benchmarks.planted_changes import arm
+from poekin.analysis.axis_lines import Tolerances
+from poekin.analysis.compare.alignment.diagnosis import diagnose
+from poekin.groups import se3
+
+TOL = Tolerances(1e-5, np.radians(1e-3))
+NOMINAL = pk.dh.published("ur10e")
+CALIBRATED = pk.ur.add_deltas(
+    NOMINAL,
+    delta_theta=[-2.41e-07, 1.60233952, -1.68607191, 0.0837331148, -1.01e-07, 3.9e-08],
+    delta_d=[-0.000160188, 439.140974080, -446.027059806, 6.886186896, -3.87e-05, -0.000879083],
+    delta_a=[2.12e-05, 0.632017133, 0.002298336, -4.61e-05, -6.39e-05, 0],
+    delta_alpha=[-0.000650247, 0.001394167, 0.006938188, -0.000811642, 0.000411121, 0],
+)
+
+
+def off(chain, wrong, rng):
+    """The arm with some axes turned by a milliradian or so and moved by half a millimetre or so."""
+    screws = chain.screws.copy()
+    for k in wrong:
+        motion = [*(2e-3 * rng.normal(size=3)), *(5e-4 * rng.normal(size=3))]
+        screws[k] = se3.adjoint(se3.exp(motion)) @ screws[k]
+    return chain.replace(screws=screws)
+
+
+def worse(result):
+    """Pose errors aligned by those as they stand."""
+    before, after = result.before, result.after
+    return max(
+        after.worst_position / before.worst_position,
+        after.mean_position / before.mean_position,
+        after.worst_rotation / before.worst_rotation,
+    )
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_calibrated_arm_is_left_as_it_stands_and_its_right_joint_is_not_blamed(swapped):
+    pair = [pk.dh.to_chain(NOMINAL), pk.dh.to_chain(CALIBRATED)]
+    if swapped:
+        pair.reverse()
+    result = pk.compare(*pair)
+    assert [joint.number for joint in result.differing] == [2, 3, 4, 5, 6]
+    assert worse(result) <= 1.0
+    assert result.aligned_to == "nothing"
+    assert result.findings[-1].startswith("left as they stand, as no alignment")
+    assert result.base == pytest.approx(np.eye(4))
+
+
+@pytest.mark.parametrize("name", ["ur5e", "panda"])
+@pytest.mark.parametrize("seed", range(4))
+def test_errors_as_of_a_real_arm_make_no_alignment_and_blame_no_right_joint(name, seed):
+    chain = arm(name)
+    rng = np.random.default_rng(seed)
+    right = set(rng.choice(chain.dof, seed % 3, replace=False).tolist())
+    other = off(chain, set(range(chain.dof)) - right, rng)
+    for result in (pk.compare(chain, other), pk.compare(other, chain)):
+        assert worse(result) <= 1.0
+        assert not {joint.number - 1 for joint in result.differing} & right
+
+
+@pytest.mark.parametrize("name", ["ur5e", "panda"])
+@pytest.mark.parametrize("tool", [False, True])
+def test_such_an_arm_that_stands_elsewhere_is_aligned_to_all_axes(name, tool):
+    chain = arm(name)
+    rng = np.random.default_rng(0)
+    other = off(chain, range(1, chain.dof), rng).rebased(se3.exp(0.3 * rng.normal(size=6)))
+    if tool:
+        other = other.retooled(se3.exp(0.3 * rng.normal(size=6)))
+    result = pk.compare(chain, other)
+    assert result.aligned_to == "all axes"
+    assert worse(result) <= 0.1
+    how = "aligned to all axes by least squares, as fewer than half agree: the base frame is moved"
+    assert any(text.startswith(how) for text in result.findings)
+    assert ("the tool frame" in result.verdict) == tool
+
+
+def test_half_of_the_axes_are_enough_and_fewer_are_not():
+    chain = arm("ur5e")
+    rng = np.random.default_rng(2)
+    moved = se3.exp([0.1, 0.2, 0, 0.3, 0, 0])
+    found = [
+        pk.compare(chain, off(chain, wrong, rng).rebased(moved)).aligned_to
+        for wrong in ([1, 3, 4], [1, 2, 3, 4])
+    ]
+    assert found == ["agreeing axes", "all axes"]
+
+
+def test_what_fewer_than_half_of_the_axes_ask_for_is_not_done():
+    # Two axes of six agree exactly under another base; the other four stand.
+    chain = arm("ur5e")
+    screws = chain.screws.copy()
+    T = se3.exp([0, 0, 0, 0.02, 0.03, 0.01])
+    screws[4:] = screws[4:] @ se3.adjoint(T).T
+    other = off(chain.replace(screws=screws), [1, 3], np.random.default_rng(0))
+    result = pk.compare(chain, other)
+    assert result.base == pytest.approx(np.eye(4), abs=1e-6)
+
+
+def test_the_diagnosis_is_one_whichever_model_comes_first():
+    chain = arm("panda")
+    other = off(chain, [1, 2, 5], np.random.default_rng(4)).rezeroed([0, 0, 0.1, 0, 0, 0, 0])
+    x = chain.random(0, 10)
+    one = diagnose(chain, other, TOL, (x, x))
+    two = diagnose(other, chain, TOL, (x, x))
+    assert one.reading.moved.tolist() == two.reading.moved.tolist()
+    assert one.reading.base @ two.reading.base == pytest.approx(np.eye(4), abs=1e-12)
+    assert one.reading.deviations.tolist() == two.reading.deviations.tolist()
+    back = two.reading.swapped(other)
+    assert back.axes == pytest.approx(one.reading.axes, abs=1e-12)
+    assert back.zeros == pytest.approx(one.reading.zeros, abs=1e-15)

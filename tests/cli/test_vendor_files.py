@@ -1,0 +1,67 @@
+"""Vendors' calibrations as models of the command line: read everywhere, refused with one message."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.formats.vendors.origins import (
+    RIZON_4S,
+    RIZON_AXES,
+    RIZON_FLANGE,
+    UFACTORY,
+    UR5E,
+    UR_LINKS,
+    yaml,
+)
+
+XARM6 = yaml(UFACTORY["xarm6"])
+FILES = {
+    "universal_robots": (yaml(UR5E, names=UR_LINKS), "tool0"),
+    "ufactory": (XARM6, "link_eef"),
+    "flexiv": (yaml(RIZON_4S, axes=RIZON_AXES, flange=RIZON_FLANGE), "flange"),
+}
+STAUBLI = '<arm><DhArray name="dhOffset"><DH index="0" beta="0.02"/></DhArray></arm>'
+WRONG = {
+    "UFACTORY: degrees": (
+        XARM6.replace("-1.5708", "-90°", 1),
+        "expected a finite number, got '-90°'",
+    ),
+    "UFACTORY: a joint twice": (XARM6.replace("joint6", "joint5"), "'joint5' appears twice"),
+    "UFACTORY: cut off": (XARM6[:-60], "missing; expected are"),
+    "Flexiv: an axis of two numbers": (
+        yaml(RIZON_4S, axes=("0 1",)),
+        "axis: expected three numbers, as 0 1 0, got '0 1'",
+    ),
+    "Flexiv: two arms": (
+        "kinematics:\n  ARM_1:\n" + yaml(RIZON_4S, indent="  "),
+        "it has the arms 'ARM_1', and none was named",
+    ),
+    "Flexiv: an arm that nobody knows": (
+        yaml([(0, 0, 0.5, 0, 0, 0)] * 7),
+        "this is near none that is known",
+    ),
+    "nobody's": ("kinematics:\n  a: 1\n", "expected shoulder, upper_arm, "),
+}
+
+
+@pytest.mark.parametrize(("text", "tip"), FILES.values(), ids=FILES)
+def test_a_vendor_s_file_is_a_model(text, tip, as_json, tmp_path):
+    path = tmp_path / "kinematics.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert as_json("axes", path)["tip"] == tip
+
+
+@pytest.mark.parametrize(("text", "said"), WRONG.values(), ids=WRONG)
+def test_a_wrong_one_is_refused_and_nothing_is_written(text, said, refused, tmp_path):
+    path = tmp_path / "kinematics.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert said in refused("info", path)
+    assert said in refused("urdf", path, "--output", tmp_path / "out.urdf")
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_staubli_s_file_is_refused_with_what_to_do_instead(refused, tmp_path):
+    path = tmp_path / "arm.cfx"
+    path.write_text(STAUBLI, encoding="utf-8")
+    assert "pk.calibration.from_fk" in refused("urdf", path, "--output", tmp_path / "out.urdf")
+    assert list(tmp_path.iterdir()) == [path]

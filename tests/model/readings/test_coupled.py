@@ -1,0 +1,210 @@
+"""A coupled chain is the chain at the joint values that its readings make, in all that it answers."""
+
+from __future__ import annotations
+
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import InputError
+from poekin.model.readings.coupled import (
+    joint_limits,
+    joint_speeds,
+    own_readings,
+    reading_limits,
+    reading_speeds,
+    sum_limits,
+)
+
+ROBOT = pk.load("puma560")
+ARM = ROBOT.chain()
+ROWS = np.random.default_rng(3).normal(size=(5, 6))
+
+
+def joints(readings: np.ndarray, sign: float) -> np.ndarray:
+    x = readings.copy()
+    x[..., 2] += sign * readings[..., 1]
+    return x
+
+
+@pytest.mark.parametrize(("said", "sign"), [("J3 = J2 + J3", 1.0), ("J3 = J3 - J2", -1.0)])
+def test_poses_and_jacobians_are_those_of_the_joint_values(said, sign):
+    coupled = ARM.coupled(said)
+    assert coupled.q_names == ARM.q_names
+    x = joints(ROWS, sign)
+    np.testing.assert_allclose(coupled.fk(ROWS), ARM.fk(x), rtol=0, atol=1e-15)
+    fast = coupled.compile()
+    np.testing.assert_allclose(fast.fk(ROWS), ARM.fk(x), rtol=0, atol=1e-14)
+    for frame in ("space", "body", "hybrid"):
+        J = ARM.jacobian(x, frame)
+        J[..., 1] += sign * J[..., 2]  # the second reading moves both
+        np.testing.assert_allclose(coupled.jacobian(ROWS, frame), J, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(fast.jacobian(ROWS, frame), J, rtol=0, atol=1e-14)
+
+
+def test_inverse_kinematics_gives_readings():
+    coupled = ARM.coupled("J3 = J2 + J3")
+    readings = np.array([0.3, 0.5, -0.9, 0.2, 0.4, 0.1])
+    T = ARM.fk(joints(readings, 1.0))
+    found = pk.ik(coupled, T, q0=readings + 0.05)
+    assert found.success
+    np.testing.assert_allclose(found.q, readings, rtol=0, atol=1e-9)
+    every = pk.ik_all(coupled, T, limits=False, seed=0)
+    alone = pk.ik_all(ARM, T, limits=False, seed=0)
+    assert len(every.solutions) == len(alone.solutions) == 8
+    again = coupled.fk(every.solutions)
+    np.testing.assert_allclose(again, np.tile(T, (8, 1, 1)), rtol=0, atol=1e-9)
+
+
+@given(seed=st.integers(0, 99))
+def test_readings_of_joints_within_their_limits_are_within_theirs_and_reach_them(seed):
+    rng = np.random.default_rng(seed)
+    K = np.eye(6) + np.tril(rng.integers(-2, 3, (6, 6)), -1)
+    limits = np.sort(rng.normal(size=(6, 2)), axis=1)
+    limits[0, 1] = np.inf
+    x = np.where(rng.integers(0, 2, (400, 6)), *np.clip(limits, -1e3, 1e3).T)
+    readings = np.linalg.solve(K, x.T).T
+    box = reading_limits(K, limits)
+    rounding = 1e-12 * (1 + np.abs(readings))
+    assert (readings >= box[:, 0] - rounding).all()
+    assert (readings <= box[:, 1] + rounding).all()
+    corners = np.array(np.meshgrid(*np.clip(limits, -1e3, 1e3))).reshape(6, -1)
+    reached = np.linalg.solve(K, corners)
+    lower = np.where(np.isinf(box[:, 0]), box[:, 0], reached.min(axis=1))
+    np.testing.assert_allclose(lower, box[:, 0], rtol=0, atol=1e-9)
+
+
+def test_limits_that_no_other_reading_changes_stay_and_sums_of_infinite_ones_are_infinite():
+    coupled = ARM.coupled("J3 = J2 + J3")
+    for k in (0, 1, 3, 4, 5):
+        np.testing.assert_array_equal(coupled.limits[k], ARM.limits[k])
+    (a, b), (c, d) = ARM.limits[2], ARM.limits[1]
+    np.testing.assert_allclose(coupled.limits[2], [a - d, b - c], rtol=1e-15)
+    K = np.array([[1.0, 0.0], [1.0, 1.0]])
+    open_ended = np.array([[-np.inf, 1.0], [0.0, np.inf]])
+    assert reading_limits(K, open_ended).tolist() == [[-np.inf, 1.0], [-1.0, np.inf]]
+    assert sum_limits(K, open_ended).tolist() == [[-np.inf, 1.0], [-np.inf, np.inf]]
+
+
+@given(seed=st.integers(0, 999))
+def test_limits_of_joints_are_found_again_by_those_of_their_readings(seed):
+    rng = np.random.default_rng(seed)
+    K = np.eye(4) + np.tril(rng.integers(-2, 3, (4, 4)), -1)
+    limits = np.sort(rng.normal(size=(4, 2)), axis=1)
+    limits[3] = -np.inf, np.inf  # which no other reading takes up
+    box = reading_limits(K, limits)
+    found = joint_limits(K, box)
+    # |K^-1| of whole numbers up to 27, times the limits
+    np.testing.assert_allclose(reading_limits(K, found), box, rtol=0, atol=1e-11)
+
+
+def test_limits_of_readings_that_no_limits_of_joints_leave_are_those_left_to_each_joint():
+    K = np.array([[1.0, 0.0], [1.0, 1.0]])
+    np.testing.assert_allclose(joint_limits(K, np.array([[-2.0, 1], [-4, 3]])), [[-2, 1], [-3, 1]])
+    narrow = np.array([[-2.0, 1.0], [-1.0, 1.0]])  # less than joint 1 takes up
+    assert joint_limits(K, narrow).tolist() == sum_limits(K, narrow).tolist() == [[-2, 1], [-3, 2]]
+
+
+@given(seed=st.integers(0, 99))
+def test_readings_within_their_velocity_limits_keep_each_joint_within_its_own(seed):
+    rng = np.random.default_rng(seed)
+    K = np.eye(6) + np.tril(rng.integers(-2, 3, (6, 6)), -1)
+    speeds = rng.uniform(0.5, 3, 6)
+    speeds[rng.integers(6)] = np.inf
+    found = reading_speeds(K, speeds)
+    rates = np.array(np.meshgrid(*(found[:, None] * [-1, 1]).clip(-1e3, 1e3))).reshape(6, -1)
+    finite = np.isfinite(speeds)
+    assert (np.abs(K @ rates).max(axis=1)[finite] <= speeds[finite] * (1 + 1e-12)).all()
+    # a joint that nothing else follows, and that follows none, keeps its own
+    alone = (np.count_nonzero(K, axis=0) == 1) & (np.count_nonzero(K, axis=1) == 1)
+    np.testing.assert_array_equal(found[alone], speeds[alone])
+    assert (reading_speeds(K, joint_speeds(K, found)) <= found * (1 + 1e-12)).all()
+
+
+def test_velocity_limits_of_chains_and_robots_are_those_of_their_readings():
+    chain = ARM.replace(velocity_limits=[1.0, 2.0, 3.0, np.inf, 5.0, 6.0])
+    coupled = chain.coupled("J3 = J2 + J3")
+    np.testing.assert_array_equal(coupled.velocity_limits, [1.0, 1.5, 1.5, np.inf, 5.0, 6.0])
+    fast = [replace(joint, velocity=2.0) for joint in ROBOT.joints if joint.kind != "fixed"]
+    fast += [joint for joint in ROBOT.joints if joint.kind == "fixed"]
+    robot = pk.Robot("fast", ROBOT.links, fast, coupling="J3 = J2 + J3")
+    expected = [2.0, 1.0, 1.0, 2.0, 2.0, 2.0]
+    np.testing.assert_array_equal(robot.chain().velocity_limits, expected)
+
+
+def test_a_chain_of_coupled_readings_may_be_coupled_again():
+    twice = ARM.coupled("J3 = J2 + J3").coupled("J3 = J3 - J2")
+    np.testing.assert_array_equal(twice.coupling, np.eye(6))
+    assert twice.nontrivial_coupling is None
+
+
+def test_a_robot_s_chains_and_poses_take_readings():
+    robot = ROBOT.coupled("J3 = J2 + J3")
+    assert robot.coupling == ("joint3 = joint2 + joint3",)
+    assert robot.chain() == ARM.coupled("J3 = J2 + J3")
+    x = joints(ROWS, 1.0)
+    plain = ROBOT.fk(x)
+    for link, T in robot.fk(ROWS).items():
+        np.testing.assert_allclose(T, plain[link], rtol=0, atol=1e-15)
+    np.testing.assert_array_equal(robot.limits, robot.chain().limits)
+    assert robot != ROBOT
+    again = pickle.loads(pickle.dumps(robot))
+    assert (again, hash(again)) == (robot, hash(robot))
+    assert pk.Robot("puma560", robot.links, robot.joints, coupling="q3 = q3 + q2") == robot
+
+
+def test_a_chain_from_the_middle_has_the_readings_that_its_joints_follow():
+    robot = ROBOT.coupled("J3 = J2 + J3")
+    part = robot.chain(base="link2")
+    assert part.q_names == ("joint3", "joint4", "joint5", "joint6", "joint2")
+    x = joints(ROWS, 1.0)
+    expected = ROBOT.chain(base="link2").fk(x[:, 2:])
+    np.testing.assert_allclose(part.fk(ROWS[:, [2, 3, 4, 5, 1]]), expected, rtol=0, atol=1e-15)
+    assert np.isinf(part.limits[[0, 4]]).all()
+    assert robot.chain(base="link3") == ROBOT.chain(base="link3")
+
+
+def test_coupling_is_of_coordinates_where_joints_mimic():
+    joints_ = [
+        pk.Joint("a", "revolute", "base", "one", axis=(0, 0, 1)),
+        pk.Joint("b", "revolute", "one", "two", axis=(1, 0, 0)),
+        pk.Joint("c", "revolute", "two", "tip", axis=(0, 0, 1), mimic=pk.Mimic("b", -0.5, 0.1)),
+    ]
+    links = ["base", "one", "two", "tip"]
+    robot = pk.Robot("mimic", links, joints_, coupling="b = a + b")
+    chain = robot.chain()
+    assert chain.coupling.tolist() == [[1, 0], [1, 1], [-0.5, -0.5]]
+    q = np.array([0.3, 0.4])
+    plain = pk.Robot("mimic", links, joints_)
+    np.testing.assert_allclose(chain.fk(q), plain.chain().fk([0.3, 0.7]), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(robot.fk(q)["tip"], chain.fk(q), rtol=0, atol=1e-15)
+    assert own_readings(chain) is None
+
+
+def test_a_robot_that_is_coupled_is_not_coupled_again():
+    with pytest.raises(InputError) as caught:
+        ROBOT.coupled("J3 = J2 + J3").coupled("J3 = J2 + J3")
+    assert str(caught.value) == (
+        "coupling: the readings of robot 'puma560' are coupled already: joint3 = joint2 + joint3"
+    )
+
+
+def test_own_readings_are_told_from_other_coordinates():
+    coupled = ARM.coupled("J3 = J2 + J3")
+    readings = own_readings(coupled)
+    assert readings is not None
+    np.testing.assert_array_equal(readings.K, coupled.coupling)
+    np.testing.assert_array_equal(readings.limits, coupled.limits)
+    assert own_readings(ARM) is None
+    assert own_readings(ARM.replace(coupling=2 * np.eye(6))) is None
+    assert own_readings(coupled.replace(q_names=list("abcdef"))) is None
+    names = coupled.q_names[::-1]
+    turned = coupled.replace(coupling=coupled.coupling[:, ::-1], q_names=names, limits=None)
+    again = own_readings(turned)
+    assert again is not None
+    np.testing.assert_array_equal(again.K, coupled.coupling)
