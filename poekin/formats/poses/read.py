@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import re
+from typing import TextIO
 
 from ...errors import FileError, InputError, quote, safe_repr
 from ...groups.arrays import Array
@@ -17,6 +18,7 @@ from .layout import Layout, PoseFormat, QuaternionOrder, layout
 
 LARGEST = 2**28
 """Characters of a text of poses."""
+_PIECE = 2**20
 _SHOWN = 60
 
 
@@ -109,10 +111,19 @@ def read_file(
     `read`; where, what messages call it; progress(characters read, size).
     """
     with csv_rows.opened(path, where) as (stream, place, _):
-        text = stream.read(LARGEST + 1)
-        if len(text) > LARGEST:
-            raise FileError(f"{place}: at most {LARGEST} characters expected")
-        return read_text(text, chosen, said, place, progress)
+        return read_text(_whole(stream, place), chosen, said, place, progress)
+
+
+def _whole(stream: TextIO, where: str) -> str:
+    """The text of a stream, by pieces: read(n) may make room for n characters at once."""
+    pieces: list[str] = []
+    length = 0
+    while piece := stream.read(_PIECE):
+        length += len(piece)
+        if length > LARGEST:
+            raise FileError(f"{where}: at most {LARGEST} characters expected")
+        pieces.append(piece)
+    return "".join(pieces)
 
 
 def read_text(

@@ -35,7 +35,8 @@ def _in_use() -> int:
 
 def test_the_memory_of_an_arm_s_machine_code_is_freed_with_the_arm():
     # LLVM keeps about 10 kB of constants for each of these arms where they are all made in one
-    # context. What is left without that is Python's own, a few hundred bytes on the average.
+    # context. What is left without that is Python's own, a few hundred bytes on the average; other
+    # threads of the test run may allocate too, though not in each of the rounds.
     rng = np.random.default_rng(0)
     programs = []
     for _ in range(20):
@@ -50,10 +51,11 @@ def test_the_memory_of_an_arm_s_machine_code_is_freed_with_the_arm():
         for program in programs:
             ArmCode(object_code(program, True), len(program.angles), 2)
 
-    use(programs[:8])
-    before = _in_use()
-    use(programs[8:])
-    assert _in_use() - before < 12 * 4096
+    held = []
+    for start in range(0, 20, 5):
+        use(programs[start : start + 5])
+        held.append(_in_use())
+    assert min(np.diff(held)) < 5 * 4096
 
 
 def test_a_long_program_is_compiled_in_blocks_and_computes_the_same(monkeypatch):
