@@ -18,8 +18,8 @@ MOVING: tuple[JointKind, ...] = ("revolute", "continuous", "prismatic", "helical
 FREE: tuple[JointKind, ...] = ("floating", "planar")
 
 # A vector this close to unit length stays as it is, so that a joint made from a joint's own axis
-# equals it.
-UNIT = 1e-15
+# equals it: what `screw.prismatic` returns is this close.
+UNIT = 2.0**-52
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +149,7 @@ class Joint:
 
     Notes
     -----
-    Frozen, and equal to a joint of the same numbers. Accuracy: the axis is a unit vector to 1e-15,
+    Frozen, and equal to a joint of the same numbers. Accuracy: the axis is a unit vector to 4e-16,
     the origin's rotation orthonormal to 4e-15 (the nearest rotation to what is given); all else is
     kept as given.
 

@@ -8,7 +8,7 @@ from dataclasses import FrozenInstanceError
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from poekin.errors import InputError, ModelError, PoekinError, PoseError, ShapeError
@@ -42,14 +42,15 @@ def axis_off(vector):
     2^-53.
 
     A quotient by the largest, the length and the quotient by it are four roundings of each entry,
-    and of its squares; the truth here has as many, and the length of what comes out three of its
-    own.
+    and the truth here has as many: 8 u. The length has those of the root, twice, and of the
+    quotient: with its own here 4 u.
     """
     axis, exact = joint(axis=vector).axis, np.array(vector) / max(map(abs, vector))
     off = np.abs(np.array(axis) - exact / math.hypot(*exact)).max()
-    return max(abs(math.hypot(*axis) - 1), off) / (8 * 2.0**-53)
+    return max(abs(math.hypot(*axis) - 1) / 4, off / 8) / 2.0**-53
 
 
+@example([0.0, -1.0, -4.37114e-08])  # of length 1 + 8 u
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=3, max_size=3))
 def test_an_axis_of_any_length_becomes_a_unit_vector_in_its_direction(vector):
     if not any(vector):
