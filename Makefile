@@ -20,6 +20,8 @@ USABLE := 'import sys, pip; sys.exit(sys.version_info < (3, 11))'
 # A sourced ROS workspace or a user site would put its own packages before those of .venv.
 unexport PYTHONPATH
 unexport PYTHONHOME
+# Without compiled modules beside the sources each of the many processes would compile the package anew.
+unexport PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE = 1
 
 # The stamp .venv/dev holds the directory that was set up: in a copied tree, or when the interpreter is gone,
