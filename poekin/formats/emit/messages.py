@@ -84,16 +84,15 @@ class Task:
 
 
 def compile_checked(chain: Arm, frame: AnyFrame) -> CompiledChain:
-    """The chain with its programs. Raises: InputError, UnknownName for a frame that there is not."""
+    """The chain with its programs. Raises: InputError where the frame is neither a name nor a number."""
     fast = compiled(chain)
     if not isinstance(frame, (str, int, np.integer)):
         choice(frame, (*FRAME_NAMES, "cheapest"), "frame", " (or the index of a joint)")
-    fast.program(frame)
     return fast
 
 
 def make_tasks(arm: CompiledChain, frame: AnyFrame) -> tuple[Task, Task, Task]:
-    """Pose, Jacobian, and both in one pass."""
+    """Pose, Jacobian, and both in one pass. Raises: InputError, UnknownName for a frame that there is not."""
     which = frame
     if not isinstance(frame, str):
         which = f"joint{int(frame)}"
