@@ -6,7 +6,6 @@ import time
 
 import typer
 
-from ..engine.jit import cache
 from ..engine.warm import kernels
 from ..errors import FileError
 from .kinematics.arm import Json
@@ -17,6 +16,8 @@ def command(json: Json = False) -> None:
     """Compile all kernels once and keep them in the cache directory (POEKIN_CACHE_DIR, or the
     user's). Exit code 0 done, 2 where nothing can be kept.
     """
+    from ..engine.jit import cache  # which loads Numba: no other command has to wait for it
+
     place = cache.usable_directory()
     if place is None:
         raise FileError(
