@@ -59,9 +59,7 @@ def shares(chain, result, q):
     The product of two rotations, and its logarithm, are off by 8 u more.
     """
     far, turned = apart(chain, result.chain, q)
-    angular, linear = np.transpose(
-        [np.add(budget(chain, row), budget(result.chain, row)) for row in q]
-    )
+    angular, linear = np.add(budget(chain, q), budget(result.chain, q))
     return np.maximum(
         far / (result.position_bound + linear),
         turned / (result.rotation_bound + angular + 8 * UNIT),

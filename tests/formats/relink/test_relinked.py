@@ -139,7 +139,7 @@ def off(case: tuple[Robot, pk.Chain], seed: int, rows: int = 3, turn: Any = "aut
     q = np.random.default_rng(seed).uniform(-2, 2, (rows, chain.dof))
     x = np.abs(q @ chain.coupling.T + chain.offset)
     size = chain.reach + robot.chain("l0", "tip").reach + x @ np.abs(chain.local.slides)
-    angular, linear = np.transpose([np.add(budget(chain, row), budget(branch, row)) for row in q])
+    angular, linear = np.add(budget(chain, q), budget(branch, q))
     frames = rounding(robot) * (1 + x.sum(axis=1))
     error = np.abs(branch.fk(q) - chain.fk(q))
     turned, moved = error[:, :3, :3].max(axis=(1, 2)), error[:, :3, 3].max(axis=1)

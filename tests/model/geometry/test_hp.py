@@ -45,7 +45,7 @@ def excess(chain, form, q):
     """
     n, reach = len(form.H), np.linalg.norm(form.P, axis=1).sum()
     own = 8 * 2.0**-53 * (n + 1)
-    turned, moved = np.transpose([budget(chain, row) for row in q])
+    turned, moved = budget(chain, q)
     off = np.abs(poses(form, q) - chain.fk(q))
     far = off[:, :3, 3].max(axis=1) / (moved + 2e-14 * n * chain.reach + (own + 2.0**-53) * reach)
     return np.maximum(off[:, :3, :3].max(axis=(1, 2)) / (turned + own), far)

@@ -64,7 +64,7 @@ def test_it_is_the_derivative_of_the_numbers(data, kind):
 
 def angular(chain, q):
     """The budget of R at configurations (rows, m), rad."""
-    return np.array([budget(chain, row)[0] for row in q])
+    return budget(chain, q)[0]
 
 
 def maps_off(chain, q):

@@ -87,10 +87,7 @@ def near(chain, q):
     times what a coordinate's joints turn and slide by.
     """
     with within(1 + FOLDS):
-        bounds = np.reshape([chain_bounds.budget(chain, row) for row in q], (len(q), 2)) / [
-            1,
-            chain.reach,
-        ]
+        bounds = np.transpose(chain_bounds.budget(chain, q)) / [1, chain.reach]
     return bounds.max(axis=1) * 2 * max(1.0, np.abs(chain.coupling).sum(0).max(initial=0))
 
 

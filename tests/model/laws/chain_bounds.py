@@ -22,23 +22,21 @@ Shaped = tuple[Callable[[np.ndarray], np.ndarray], tuple[int, ...]]
 """A function of configurations, and the shape of its value for a single one."""
 
 
-def budget(
-    chain: Any,
-    q: np.ndarray,
-) -> tuple[float, float]:
-    """Bounds on the rounding of a pose: of its rotation, and of its translation.
+def budget(chain: Any, q: np.ndarray) -> tuple[Any, Any]:
+    """Bounds on the rounding of poses at q (..., m): of their rotations, and of their translations.
 
     The angular bound is u (8 (n + 1) + 4 Σ |x_i|); the linear bound is that times the reach and what
     the joints slide beyond it. Where the home pose's rotation R misses being one by δ = |R Rᵀ - I|,
     the forms are different motions: M e^{B x}, whose B = Ad(M)⁻¹ A takes Rᵀ for the inverse, turns
     otherwise by up to δ (1 + Σ |x_i|/2), and moves by up to δ (2 + Σ |x_i|/2) times the same.
     """
-    x = chain.coupling @ q + chain.offset
+    x = q @ chain.coupling.T + chain.offset
     R = chain.home[:3, :3]
-    turned = float(np.abs(x).sum())
+    turned = np.abs(x).sum(axis=-1)
     missed = size(R @ R.T - np.eye(3))
-    angular = UNIT * (8 * (len(x) + 1) + 4 * turned) + missed * (1 + turned / 2)
-    return angular, (angular + missed) * (chain.reach + float(np.abs(chain.local.slides * x).sum()))
+    angular = UNIT * (8 * (len(chain.screws) + 1) + 4 * turned) + missed * (1 + turned / 2)
+    far = chain.reach + np.abs(chain.local.slides * x).sum(axis=-1)
+    return angular, (angular + missed) * far
 
 
 def of_poses(
