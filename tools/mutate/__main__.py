@@ -28,7 +28,7 @@ if importlib.util.find_spec("cosmic_ray") is None:
 
 from . import equivalent, sample
 from .campaign import BrokenSuite, Campaign, Outcome, kept
-from .mutants import Mutant, mutants_of, paths
+from .mutants import Mutant, mutants_of, paths, room
 from .report import counted, kind, table, told
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -59,12 +59,11 @@ def main(arguments: list[str] | None = None) -> int:
     said = parser.parse_args(arguments)
 
     sources = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
+    rooms = {room(path) for path in sources}
+    if unknown := sorted(set(said.room or ()) - rooms):
+        parser.error(f"no room called {unknown[0]!r}; there are {', '.join(sorted(rooms))}")
     every = [mutant for path, source in sources.items() for mutant in mutants_of(path, source)]
     listed, stale = equivalent.listed(every, equivalent.entries())
-    if unknown := sorted(set(said.room or ()) - {m.room for m in every}):
-        parser.error(
-            f"no room called {unknown[0]!r}; there are {', '.join(sorted({m.room for m in every}))}"
-        )
     chosen = [m for m in every if not said.module or any(part in m.path for part in said.module)]
     chosen = [m for m in chosen if not said.room or m.room in said.room]
     chosen = [m for m in chosen if not said.operator or said.operator in m.operator]
