@@ -84,6 +84,13 @@ def test_importing_poekin_imports_only_the_core_dependencies():
     assert imports_beyond_the_core(ROOT) == set()
 
 
+def test_numba_waits_for_the_first_kernel_and_no_command_loads_it_before():
+    loaded = modules_loaded_by("import poekin.cli.commands", ROOT)
+    assert {"poekin", "typer"} <= loaded
+    assert {"numba", "llvmlite"} & loaded == set()
+    assert "numba" in modules_loaded_by("import poekin.engine.jit.cache", ROOT)
+
+
 def test_an_optional_package_imported_with_poekin_is_caught(tmp_path):
     (tmp_path / "poekin").mkdir()
     (tmp_path / "poekin" / "__init__.py").write_text(
