@@ -62,8 +62,8 @@ def _register() -> None:
 
 
 # Products and sums may be fused; nothing else is reordered, and NaN and infinities are what they
-# are.
-OPTIONS: dict = {"error_model": "numpy", "fastmath": {"contract"}}
+# are. An entry for C, which nobody calls, would take a quarter as long again to compile.
+OPTIONS: dict = {"error_model": "numpy", "fastmath": {"contract"}, "no_cfunc_wrapper": True}
 # Called once for each element of a batch: as functions of their own they would cost a third more.
 _INLINED = (arctangent, compensated, exponential, logarithm, quaternion)
 _ENGINE = "poekin.engine."
@@ -76,7 +76,8 @@ def _register_functions(module) -> None:
         _registered.add(module.__name__)
         for _, function in inspect.getmembers(module, inspect.isfunction):
             if function.__module__ == module.__name__ and function not in _OVERLOADED:
-                register_jitable(forceinline=module in _INLINED)(function)
+                inline = module in _INLINED
+                register_jitable(forceinline=inline, no_cfunc_wrapper=True)(function)
 
 
 def modules_used(module):
