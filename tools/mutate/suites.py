@@ -59,7 +59,7 @@ _ALL_FORMULAS = (
     " analysis/count analysis/axes analysis/manipulability analysis/singularity"
     " formats/dh formats/rpy formats/emit_python formats/objects_pinocchio"
 )
-_COMPILED_ARMS = "model/compiled formats/emit_c formats/emit_python"
+_COMPILED_ARMS = "model/compiled formats/emit_c formats/emit_javascript formats/emit_python"
 _BY_MODEL = (
     "formats/dh formats/mjcf formats/objects formats/relinked formats/rpy formats/serial formats/ur"
     " formats/urdf analysis/axes analysis/compare_extra testing/chain_strategies cli/info"

@@ -1,4 +1,4 @@
-"""`poekin emit`: an arm's kinematics as C for a controller, or as Python for arrays."""
+"""`poekin emit`: an arm's kinematics as C for a controller, Python for arrays, JavaScript for a page."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from typer import Option
 
+from ...checks import alternatives
 from ...errors import FileError, InputError, quote
 from ...formats import emit
 from ...formats.emit.messages import identifier
@@ -24,18 +25,23 @@ from ..model import origin as model_origin
 from ..output import path_text, say
 
 FRAMES = (*FRAME_NAMES, "cheapest")
+ENDINGS = {"c": (), "python": (".py",), "javascript": (".js", ".mjs")}
+"""Languages, and how the one file of theirs may end."""
 NUMBERS: dict[bool, emit.Real] = {False: "double", True: "float"}
 FRAME_HELP = "The Jacobian's: space | body | hybrid | cheapest (an intermediate link frame) | K (of joint K, from 0)."
 
 Language = Annotated[
     str,
-    Option("--lang", help="c (C99, math.h only) or python (NumPy, JAX, PyTorch arrays)."),
+    Option(
+        "--lang",
+        help="c (C99, math.h only) | python (NumPy, JAX, PyTorch arrays) | javascript (a module).",
+    ),
 ]
 Output = Annotated[
     Path,
     Option(
         "--output",
-        help="A directory for the files (made where there is none); for python also a .py.",
+        help="A directory for the files (made where there is none); or a .py for python, a .js or .mjs for javascript.",
     ),
 ]
 Frame = Annotated[str, Option("--frame", help=FRAME_HELP)]
@@ -64,11 +70,12 @@ def command(
     force: Force = False,
 ) -> None:
     """Pose and Jacobian of one chain as straight-line source text that needs no poekin."""
-    if language not in ("c", "python"):
-        raise InputError(f"--lang: c or python expected, got {quote(language)}")
+    if language not in ENDINGS:
+        raise InputError(f"--lang: {alternatives(ENDINGS)} expected, got {quote(language)}")
     if single and language != "c":
         raise InputError(
-            "--float: expected together with --lang c only; Python computes in the numbers it is given"
+            "--float: expected together with --lang c only; Python computes in the numbers it is given, "
+            "JavaScript in double precision"
         )
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
@@ -81,7 +88,7 @@ def command(
     if name is None:
         name = robot.name
     texts = _texts(chain, language, parse_frame(frame, FRAMES), name, single, origin)
-    if language == "python" and output.suffix == ".py":
+    if output.suffix in ENDINGS[language]:
         places = dict.fromkeys([output], *texts.values())
         directory = output.parent
     else:
@@ -114,7 +121,8 @@ def _texts(
     """Texts by the names of their files."""
     if language == "c":
         return emit.c(chain, frame, name=name, real=NUMBERS[single], origin=origin).files
-    return {f"{identifier(name)}.py": emit.python(chain, frame, origin=origin)}
+    write = {"python": emit.python, "javascript": emit.javascript}[language]
+    return {f"{identifier(name)}{ENDINGS[language][0]}": write(chain, frame, origin=origin)}
 
 
 def _write(places: dict[Path, str], directory: Path, force: bool) -> None:

@@ -1,6 +1,7 @@
-"""Kinematics of an arm as source text: C99, and Python for NumPy, JAX and PyTorch arrays."""
+"""Kinematics of an arm as source text: C99, JavaScript, and Python for NumPy, JAX and PyTorch arrays."""
 
 from .c import CSource, Real, c
+from .javascript import javascript
 from .python import python
 
-__all__ = ["CSource", "Real", "c", "python"]
+__all__ = ["CSource", "Real", "c", "javascript", "python"]

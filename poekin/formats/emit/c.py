@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -12,6 +11,7 @@ from ...checks import REQUIRED, choice
 from ...errors import InputError, safe_repr
 from ...model.kinematics.arm import Arm
 from ...model.kinematics.pose_jacobian import AnyFrame
+from .assignments import angle_assignments, comment, result_assignments
 from .c_selftest import selftest
 from .messages import (
     Task,
@@ -22,7 +22,7 @@ from .messages import (
     made_by,
     make_tasks,
 )
-from .statements import Statements, WriteNumber, by_outputs, double, single, statements
+from .statements import Statements, WriteNumber, double, single, statements
 from .vectors import vectors
 
 Real = Literal["double", "float"]
@@ -134,7 +134,7 @@ def c(
     return CSource(
         word,
         _header(word, [*head, "", *header_lines(arm, frame)], functions),
-        "\n".join([_comment(head), f'#include "{word}.h"\n\n#include <math.h>', *texts]),
+        "\n".join([comment(head), f'#include "{word}.h"\n\n#include <math.h>', *texts]),
         selftest(word, real, literal, tasks, vectors(arm, frame, kind)),
     )
 
@@ -175,7 +175,7 @@ class _Function:
             "..._angles: those angles from q.",
         ]
         angles, sincos, whole = (f"{head};" for head in self.heads)
-        return "\n".join([_comment(words), whole, sincos, angles, ""])
+        return "\n".join([comment(words), whole, sincos, angles, ""])
 
     def text(self) -> str:
         """The definitions."""
@@ -189,29 +189,16 @@ class _Function:
         unused = [
             name for name, used in (("q", program.angle_reads), ("x", program.angles)) if not used
         ]
-        return [
-            *self._locals((name, f"{array}[{k}]") for name, array, k in program.angle_reads),
-            *self._locals((f"x{j}", text) for j, text in enumerate(program.angles)),
-            *(f"    (void){name};" for name in unused),
-            *(f"    x[{j}] = x{j};" for j in range(self.count)),
-        ]
+        return [*_ignored(unused), *angle_assignments(program, f"const {self.real}")]
 
     def _statements(self, program: Statements) -> list[str]:
         used = {array for _, array, _ in program.reads}
-        T, J = by_outputs(program.outputs, self.task.pose)
-        places = [
-            f"    {name}[{k}] = {x if isinstance(x, str) else self.literal(x)};"
-            for name, values in (("T", T), ("J", J))
-            for k, x in enumerate(values)
-        ]
-        unused = [array for array in "scq" if array not in used] + ["J"] * (
-            self.task.jacobian and not J
-        )
+        unused = [array for array in "scq" if array not in used]
+        if self.task.jacobian and not self.dof:
+            unused.append("J")
         return [
-            *self._locals((name, f"{array}[{k}]") for name, array, k in program.reads),
-            *self._locals(program.lines),
-            *(f"    (void){array};" for array in unused),
-            *places,
+            *_ignored(unused),
+            *result_assignments(program, self.task, self.literal, f"const {self.real}"),
         ]
 
     def _whole(self) -> list[str]:
@@ -231,11 +218,10 @@ class _Function:
             f"    {self.name}_sincos(s, c, q{results});",
         ]
 
-    def _locals(
-        self,
-        pairs: Iterable[tuple[str, str]],
-    ) -> list[str]:
-        return [f"    const {self.real} {name} = {text};" for name, text in pairs]
+
+def _ignored(names: list[str]) -> list[str]:
+    """Statements that keep a compiler from warning of parameters that are not used."""
+    return [f"    (void){name};" for name in names]
 
 
 _HEADER = """{comment}
@@ -262,8 +248,4 @@ def _header(
 ) -> str:
     declarations = "\n".join(function.declared() for function in functions)
     guard = f"{word.upper()}_H_INCLUDED"
-    return _HEADER.format(comment=_comment(lines), guard=guard, declarations=declarations)
-
-
-def _comment(lines: list[str]) -> str:
-    return "\n".join(["/*", *(f" * {line}".rstrip() for line in lines), " */"])
+    return _HEADER.format(comment=comment(lines), guard=guard, declarations=declarations)

