@@ -58,7 +58,8 @@ def relinked(
     robot : Robot
         Robot with new joint origins along the branch. Where the tip is the link that the last joint
         moves, and the chain's tip is off that joint's axis, there is a new link "TIP_tool", fixed
-        to it, which is the chain's tip.
+        to it by the joint "TIP_tool_joint", which is the chain's tip. Where there is such a leaf
+        already, as an earlier chain left it, it is moved to the chain's tip.
 
     Raises
     ------
@@ -73,7 +74,7 @@ def relinked(
     Warns
     -----
     PoekinWarning
-        If a tool link is added, with its name; if the chain's readings are coupled and the robot's
+        If a tool link is added or moved, with its name; if the chain's readings are coupled and the robot's
         are not.
 
     Notes
@@ -138,8 +139,8 @@ def relinked(
         joints[number] = joint
     if branch.tool is not None:
         tool = _tool(robot, joints[down[-1]], branch.tool)
-        links.append(tool.child)
-        joints.append(tool)
+        links = list(dict.fromkeys((*links, tool.child)))
+        joints = list({joint.name: joint for joint in (*joints, tool)}.values())
     return Robot(robot.name, links, joints, robot.source, robot.coupling)
 
 
@@ -184,12 +185,18 @@ def _coupling_to_drop(nominal: Chain, chain: Chain) -> tuple[str, ...]:
 
 def _tool(robot: Robot, last: Joint, origin: Array) -> Joint:
     """The fixed joint that holds the chain's tip, off the axis of the last joint. Warns of it."""
-    link = free_name(f"{last.child}_tool", set(robot.links))
-    name = free_name(f"{link}_joint", {joint.name for joint in robot.joints})
+    link = f"{last.child}_tool"
+    name = f"{link}_joint"
+    new = ""
+    held = {(j.name, j.kind, j.parent, j.child) for j in robot.joints if j.child in robot.leaves}
+    if (name, "fixed", last.child, link) not in held:  # by an earlier chain
+        link = free_name(link, set(robot.links))
+        name = free_name(f"{link}_joint", {joint.name for joint in robot.joints})
+        new = "new "
     warn(
         f"link {quote(last.child)} stays on the axis of joint {quote(last.name)}, and the chain's tip is"
         f" {np.linalg.norm(origin[:3, 3]) * 1e3:.3g} mm and"
-        f" {math.degrees(np.linalg.norm(so3.log(origin[:3, :3]))):.3g}° from it: the tip is the new link"
+        f" {math.degrees(np.linalg.norm(so3.log(origin[:3, :3]))):.3g}° from it: the tip is the {new}link"
         f" {quote(link)}, fixed to it"
     )
     return Joint(name, "fixed", last.child, link, origin)

@@ -463,3 +463,43 @@ def test_a_calibrated_arm_as_urdf_keeps_its_links():
     )
     assert text.count('lower="-6.283185307179586"') == 6
     assert all(f'<link name="{link}"/>' in text for link in robot.links)
+
+
+def test_a_chain_put_on_again_moves_the_tool_link_that_is_there():
+    robot, tip = pk.load("ur5e"), "wrist_3_link"
+    chain = robot.chain(tip=tip).retooled(pk.se3.exp([0, 0, 0, 0.02, 0, 0]))
+    further = chain.retooled(pk.se3.exp([0, 0.1, 0, 0.01, 0, 0]))
+    with pytest.warns(PoekinWarning, match=f"the tip is the new link '{tip}_tool'"):
+        once = relinked(robot, chain, tip=tip)
+    with pytest.warns(PoekinWarning, match=f"the tip is the link '{tip}_tool'"):
+        twice = relinked(once, further, tip=tip)
+    assert (twice.links, len(twice.joints)) == (once.links, len(once.joints))
+    q = np.full(6, 0.3)
+    # two products of eight poses of an arm of 1.2 m
+    assert np.abs(twice.chain(tip=f"{tip}_tool").fk(q) - further.fk(q)).max() <= 2e-15
+
+
+@pytest.mark.parametrize("change", ["parent", "kind", "name", "leaf"])
+def test_another_link_of_the_tool_s_name_stays_where_it_is(change):
+    own: dict[str, Any] = {
+        "name": "arm_tool_joint",
+        "kind": "fixed",
+        "parent": "arm",
+        "child": "arm_tool",
+    }
+    own |= {
+        "parent": {"parent": "base"},
+        "kind": {"kind": "revolute"},
+        "name": {"name": "grip"},
+    }.get(change, {})
+    joints = [Joint("turn", "revolute", "base", "arm", axis=(0, 0, 1)), Joint(**own)]
+    links = ["base", "arm", "arm_tool"]
+    if change == "leaf":
+        joints.append(Joint("finger_joint", "fixed", "arm_tool", "finger"))
+        links.append("finger")
+    robot = Robot("r", links, joints)
+    chain = robot.chain(tip="arm").retooled(pk.se3.exp([0, 0, 0, 0.1, 0, 0]))
+    with pytest.warns(PoekinWarning, match="the new link 'arm_tool_'"):
+        result = relinked(robot, chain, tip="arm")
+    assert result.joint(own["name"]) == robot.joint(own["name"])
+    assert result.links == (*robot.links, "arm_tool_")
