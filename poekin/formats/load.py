@@ -98,21 +98,23 @@ def load(name: FilePath) -> Robot:
     if os.path.exists(name):
         return urdf.read(name)
     if "/" in name or os.sep in name or name.lower().endswith(ENDINGS):
-        raise FileError(f"{escape_unprintable(name, 400)}: no such file{_available(name)}")
-    raise UnknownName(f"no file and no built-in arm is named {quote(name)}{_available(name)}")
+        raise FileError(f"{escape_unprintable(name, 400)}: no such file{_guess(name)}")
+    raise UnknownName(
+        f"no file and no built-in arm is named {quote(name)}{_guess(name)}"
+        f' (built in: {", ".join(BUILT_IN)}; "{PREFIX}NAME" is for example-robot-data)'
+    )
 
 
-def _available(name: str) -> str:
-    """End of a message: the names closest to one that nothing has, and all that are built in."""
+def _guess(name: str) -> str:
+    """End of a message: the names closest to one that nothing has."""
     stem = os.path.splitext(os.path.basename(name))[0]
     close: list[str] = []
     if not name.casefold().startswith(PREFIX):
         close = close_names(stem, BUILT_IN)
     close = close or close_names(name, _example_robots())
-    guess = ""
     if close:
-        guess = f"; did you mean {' or '.join(map(quote, close))}?"
-    return f'{guess} (built in: {", ".join(BUILT_IN)}; "{PREFIX}NAME" is for example-robot-data)'
+        return f"; did you mean {' or '.join(map(quote, close))}?"
+    return ""
 
 
 def _example_robots() -> list[str]:

@@ -20,9 +20,9 @@ from ..model.robot import Robot
 from . import rpy, urdf, urdf_in_place
 from .common.limits import UNBOUNDED
 from .common.xml_attribute import quote_attribute
+from .content import compressed
 from .relink import relinked
 from .serial import serial_robot
-from .text import xml
 from .text.atomic_write import FilePath
 from .text.numbers import shortest
 
@@ -71,7 +71,8 @@ def to_urdf(
     name : str, optional
         Name of the robot; by default its own, BASE_to_TIP for a chain. Not with `into`.
     into : str or os.PathLike or bytes or Robot, optional
-        Path of a URDF, its content, or a robot that was read from it: the text to be edited. A
+        Path of a URDF, also as .gz or in a .zip, its content, or a robot that was read from it: the
+        text to be edited. A
         `Robot` must have its links and joints; a `Chain` is put between the links that its base and
         tip are called, as by `relinked`. The file itself stays as it is.
 
@@ -199,9 +200,11 @@ def _in_place(
         place = into.source.name
         text = into.source.text
     elif isinstance(into, bytes):
-        text = into
+        text = compressed.plain(into, place)
+    elif not isinstance(into, (str, os.PathLike)):
+        raise InputError(f"into: expected a path, bytes or a Robot, got {safe_repr(into)}")
     else:
-        text = xml.read_bytes(into)
+        text = compressed.read(into)
         place = os.fsdecode(into)
     if not isinstance(model, Robot):
         chain = chain_of(model)

@@ -17,6 +17,7 @@ from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import urdf
 from .common.xml_attribute import quote_attribute
+from .content import compressed
 from .ros import packages
 from .text import xml
 from .text.atomic_write import FilePath
@@ -53,7 +54,7 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
     FileError
         If the file cannot be read, or the package of its name is nowhere.
     ModelError
-        If xacro refuses the file, with its own words, or the result cannot be understood as URDF;
+        If xacro refuses the file, with its own words, if it is compressed, or the result cannot be understood as URDF;
         lines are then those of the evaluated text.
     InputError
         If an argument is no text, number or truth value.
@@ -68,6 +69,11 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
     path = packages.local_path(path)
     data = xml.read_bytes(path)
     name = os.fsdecode(path)
+    if compressed.is_compressed(data):
+        raise ModelError(
+            f"{Source(name).place()}: xacro is evaluated where it lies, beside what it includes: "
+            "decompress it first"
+        )
     root = xml.parse(data, name, tell=False)  # refuses what is not safe before it is evaluated
     values = {key: _text(key, value) for key, value in arguments.items()}
     result = _evaluated(name, root.get("name"), values)
@@ -80,10 +86,11 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
 
 
 def is_xacro(path: FilePath) -> bool:
-    """Whether a file is xacro: it ends in .xacro or declares xacro's namespace. Raises: FileError."""
-    return os.fsdecode(path).lower().endswith(".xacro") or b"ros.org/wiki/xacro" in xml.read_bytes(
-        path
-    )
+    """Whether a file is xacro: it ends in .xacro or declares xacro's namespace, also where it is
+    compressed. Raises: FileError.
+    """
+    ends = os.fsdecode(path).lower().endswith(".xacro")
+    return ends or b"ros.org/wiki/xacro" in compressed.read(path)
 
 
 def _text(key: str, value: Any) -> str:

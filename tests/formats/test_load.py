@@ -196,7 +196,7 @@ def test_an_unknown_name_is_answered_with_those_that_exist(name):
         ("UR5", "; did you mean 'ur5'? ("),
         ("Panda", "; did you mean 'panda'? ("),
         ("UR 10 e", "; did you mean 'ur10e' or "),
-        ("robots/ur5e.urdf", "; did you mean 'ur5e'? ("),
+        ("robots/ur5e.urdf", "robots/ur5e.urdf: no such file; did you mean 'ur5e'?"),
         ("franka", "named 'franka' (built in: "),
     ],
 )
@@ -231,7 +231,7 @@ def test_a_robot_of_example_robot_data_is_suggested_where_nothing_built_in_is(
 
 def test_a_file_is_named_in_what_is_wrong_with_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(FileError, match=r"^gone\.urdf: no such file \(built in: cobra600, .*\)$"):
+    with pytest.raises(FileError, match=r"^gone\.urdf: no such file$"):
         load("gone.urdf")
     with pytest.raises(InputError, match=r"^load: expected a name or a path, got bytes$"):
         load(b"panda")  # type: ignore[arg-type]
@@ -247,7 +247,7 @@ def test_a_file_is_named_in_what_is_wrong_with_it(tmp_path, monkeypatch):
     long = "x" * 240 + "/" + "y" * 240 + ".urdf"
     with pytest.raises(FileError) as caught:
         load(long)
-    assert str(caught.value).startswith(f"{long[:399]}…: no such file (built in: ")
+    assert str(caught.value) == f"{long[:399]}…: no such file"
 
 
 @pytest.mark.parametrize("name", [7, None, b"panda", ["panda"]])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import importlib.util
 import locale
 import sys
@@ -250,7 +251,7 @@ def test_load_evaluates_nothing_and_says_what_does(tmp_path):
             match=r"(?i)arm.*\.xacro: xacro evaluates .*pk\.xacro\(path\) does, and --xacro",
         ):
             load(tmp_path / name)
-    with pytest.raises(FileError, match=r"^gone\.xacro: no such file \(built in: "):
+    with pytest.raises(FileError, match=r"^gone\.xacro: no such file$"):
         load("gone.xacro")
 
 
@@ -273,3 +274,14 @@ def test_without_xacrodoc_the_extra_is_named(tmp_path, monkeypatch):
         match=r"^evaluating xacro needs the package xacrodoc: pip install 'poekin\[xacro\]'$",
     ):
         xacro(tmp_path / "a.xacro")
+
+
+def test_compressed_xacro_is_refused_with_what_to_do(tmp_path):
+    text = HEAD + '<link name="a"/></robot>'
+    path = tmp_path / "arm.urdf.gz"
+    path.write_bytes(gzip.compress(text.encode()))
+    assert is_xacro(path)
+    with pytest.raises(
+        ModelError, match=r"arm\.urdf\.gz: xacro is evaluated where .*: decompress it first$"
+    ):
+        xacro(path)

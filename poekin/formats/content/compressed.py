@@ -12,6 +12,7 @@ import zlib
 from collections.abc import Callable
 
 from ...errors import FileError, join_names, quote, suggest
+from ...model.provenance import Source
 from ..text import xml
 from ..text.atomic_write import FilePath
 
@@ -48,6 +49,25 @@ def split(name: FilePath) -> tuple[str, str]:
         if os.path.isfile(archive):
             return archive, whole[ending.end() :]
     return whole, ""
+
+
+def read(path: FilePath) -> bytes:
+    """Bytes of a file, out of a gzip file or zip archive where it is one, or is in one by its name.
+    Raises: FileError.
+    """
+    archive, member = split(path)
+    return plain(xml.read_bytes(archive), Source(archive).place(), member)
+
+
+def plain(
+    content: bytes,
+    place: str,
+    member: str = "",
+) -> bytes:
+    """Content, decompressed where it is compressed. Otherwise as `decompress`."""
+    if is_compressed(content):
+        return decompress(content, place, member)
+    return content
 
 
 def decompress(

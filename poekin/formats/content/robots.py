@@ -82,10 +82,10 @@ def from_content(
     Parameters: content; name, what messages call it; member, the name of a file in it where it is
     an archive. Raises and warns: as `from_text`.
     """
-    if isinstance(content, bytes) and compressed.is_compressed(content):
-        content = compressed.decompress(content, Source(name).place(), member)
-        if member:
-            name = f"{name}/{member}"
+    if isinstance(content, bytes):
+        content = compressed.plain(content, Source(name).place(), member)
+    if member:
+        name = f"{name}/{member}"
     place = Source(name).place()
     if len(content) > xml.MAX_BYTES:
         size = len(content) / 2**20

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gzip
 import re
 import warnings
+import zipfile
 from dataclasses import replace
 from typing import Any
 
@@ -13,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.errors import InputError, ModelError, PoekinWarning
+from poekin.errors import FileError, InputError, ModelError, PoekinWarning
 from poekin.formats import urdf_in_place
 from poekin.formats.erd import available, example_robots
 from poekin.formats.urdf_in_place import in_place
@@ -403,7 +405,7 @@ def test_what_cannot_go_together_is_refused():
         pk.to_urdf(ROBOT, name="x", into=ARM.encode())  # pyright: ignore[reportCallIssue, reportArgumentType]
     with pytest.raises(InputError, match=r"^to_urdf: expected a Robot or a Chain, got int$"):
         pk.to_urdf(ANY, into=ARM.encode())
-    with pytest.raises(InputError, match=r"^expected the path of a file, got 7$"):
+    with pytest.raises(InputError, match=r"^into: expected a path, bytes or a Robot, got 7$"):
         pk.to_urdf(ROBOT, into=ANY)
     with pytest.raises(pk.PoekinError, match="no base link 'floor'"):
         pk.to_urdf(ROBOT.chain(tip="hand").replace(base="floor"), into=ARM.encode())
@@ -488,3 +490,21 @@ def test_what_xacro_makes_of_a_file_is_edited_as_any_other_urdf(tmp_path):
     assert pose_error(result, chain, "tool") <= EXACT
     assert as_pinocchio_has_it(result) == as_pinocchio_has_it(data)
     assert b'rpy="0 -1.5707963267948966 0"' in result  # at gimbal lock
+
+
+def test_a_compressed_urdf_is_edited_as_what_is_in_it(tmp_path):
+    chain = ROBOT.chain(tip="hand").retooled(pk.se3.exp([0, 0, 0, 0.01, 0, 0]))
+    expected = pk.to_urdf(chain, into=ARM.encode())
+    content = gzip.compress(ARM.encode())
+    (tmp_path / "arm.urdf.gz").write_bytes(content)
+    with zipfile.ZipFile(tmp_path / "arms.zip", "w") as archive:
+        archive.writestr("arm.urdf", ARM)
+        archive.writestr("readme.txt", "no model")
+    for into in ("arm.urdf.gz", "arms.zip", "arms.zip/arm.urdf"):
+        assert pk.to_urdf(chain, into=tmp_path / into) == expected
+    assert pk.to_urdf(chain, into=content) == expected
+    assert (tmp_path / "arm.urdf.gz").read_bytes() == content
+    with pytest.raises(FileError, match=r"arms\.zip has no file 'gone\.urdf'"):
+        pk.to_urdf(chain, into=str(tmp_path / "arms.zip/gone.urdf"))
+    with pytest.raises(FileError, match=r"^<text>: cannot be decompressed"):
+        pk.to_urdf(chain, into=content[:40])
