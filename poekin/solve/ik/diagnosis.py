@@ -144,7 +144,8 @@ def distance_beyond_reach(
         length += slides[k] * (abs(chain.offset[k]) + ways.sum())
     if not np.isfinite(length):
         return nothing
-    far = np.linalg.norm(offsets, axis=1)
+    with np.errstate(over="ignore"):
+        far = np.hypot(np.hypot(*offsets[:, :2].T), offsets[:, 2])
     return np.maximum(far - length * (1 + 1e-12), 0.0)
 
 

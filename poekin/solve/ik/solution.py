@@ -103,7 +103,10 @@ class Solution(Result):
             return f"solved: {off}"
         if reason == BAD_TARGET:
             return "bad target: it is not made of finite numbers"
-        return f"{reason}: {self._cause(reason, index, flat)}the nearest pose found is {off}{self._others(flat)}"
+        nearest = f"the nearest pose found is {off}"
+        if np.isnan(self.position_error[index]):
+            nearest = "there is no nearest pose: the numbers are too large"
+        return f"{reason}: {self._cause(reason, index, flat)}{nearest}{self._others(flat)}"
 
     def _counts(self) -> str:
         solved = int(self.success.sum())

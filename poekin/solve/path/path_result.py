@@ -290,11 +290,13 @@ class PathResult(Result):
         return f"<PathResult {solved}, largest step {self.largest_step:.3g}{changed}>"
 
     def _reached(self) -> str:
-        position = float(np.max(self.position_error[self.success], initial=0.0))
-        rotation = float(np.max(self.rotation_error[self.success], initial=0.0))
+        words = f"{int(self.success.sum())} of {len(self.q)} poses reached"
+        if not self.success.any():
+            return words
+        position = float(np.max(self.position_error[self.success]))
+        rotation = float(np.max(self.rotation_error[self.success]))
         return (
-            f"{int(self.success.sum())} of {len(self.q)} poses reached, "
-            f"within {1e3 * position:.2g} mm and {np.degrees(rotation):.2g}°; "
+            f"{words}, within {1e3 * position:.2g} mm and {np.degrees(rotation):.2g}°; "
             f"largest step {self.largest_step:.3g} (rad or m)"
         )
 

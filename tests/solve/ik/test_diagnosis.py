@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from types import SimpleNamespace
 
 import numpy as np
@@ -188,3 +189,15 @@ def test_what_is_solved_without_limits_is_in_their_way_or_within_them_after_all(
     assert q0.shape == (3, 2)
     np.testing.assert_array_equal(limits, FREE)
     np.testing.assert_allclose(ranges, [[-np.pi, np.pi], [-1, 1]])
+
+
+@pytest.mark.parametrize("far", [1e160, 1e308])
+def test_a_target_whose_square_is_no_number_is_as_far_as_it_is(far):
+    arm = pk.load("ur5e").chain()
+    target = np.eye(4)
+    target[:3, 3] = far / 2
+    with np.errstate(all="raise"):
+        found = ik(arm, target)
+    assert found.reason == "unreachable"
+    assert found.distance_beyond_reach == pytest.approx(far * math.sqrt(0.75), rel=1e-15)
+    assert found.summary().endswith("; there is no nearest pose: the numbers are too large")

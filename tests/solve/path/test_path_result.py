@@ -287,10 +287,7 @@ def test_a_path_is_plain_data_without_its_chain():
 
 def test_where_nothing_is_reached_nothing_is_off():
     path = followed([[0, 1, 0.1]], reason=["unreachable"], errors=[[0.5, 0.25]])
-    assert (
-        path.summary().splitlines()[0]
-        == "0 of 1 poses reached, within 0 mm and 0°; largest step 0 (rad or m)"
-    )
+    assert path.summary().splitlines()[0] == "0 of 1 poses reached"
 
 
 def test_the_fastest_trajectory_is_through_its_coordinates():
