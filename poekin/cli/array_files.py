@@ -19,6 +19,7 @@ from . import npy
 from .model import STANDARD_INPUT, STDIN, stdin_taken, take_stdin
 from .output import path_text
 
+TABLES = (".csv", ".npy", ".json")
 TIME = "time"
 ERRORS = ("success", "position_error", "rotation_error")
 """Columns that `ik` and `follow` write beside the coordinates."""
@@ -128,29 +129,21 @@ def write_result(
     write_whole(path, content)
 
 
-def check_writable(path: Path | None) -> None:
-    """Refuse a place that cannot be written to before any work is done. Raises: FileError."""
+def check_place(path: Path | None, endings: Sequence[str] = TABLES) -> None:
+    """Refuse a place that cannot be written to, or that has none of these endings, before any work is
+    done. Raises: FileError.
+    """
     if path is None:
         return
-    if path.suffix.lower() not in (".csv", ".npy", ".json"):
-        raise FileError(
-            f"cannot write {path_text(path)}: a name that ends in .csv, .npy or .json expected"
-        )
-    if path.is_dir():
-        raise FileError(f"cannot write {path_text(path)}: it is a directory")
-    if not path.parent.is_dir():
-        raise FileError(
-            f"cannot write {path_text(path)}: there is no directory {path_text(path.parent)}"
-        )
-
-
-def check_place(path: Path, endings: Sequence[str]) -> None:
-    """Refuse a place that has none of these endings, or no directory. Raises: FileError."""
-    where = f"cannot write {path_text(path)}"
+    fault = ""
     if path.suffix.lower() not in endings:
-        raise FileError(f"{where}: a name that ends in {' or '.join(endings)} expected")
-    if path.is_dir() or not path.parent.is_dir():
-        raise FileError(f"{where}: it is a directory, or there is none for it")
+        fault = f"a name that ends in {' or '.join(endings)} expected"
+    elif path.is_dir():
+        fault = "it is a directory"
+    elif not path.parent.is_dir():
+        fault = f"there is no directory {path_text(path.parent)}"
+    if fault:
+        raise FileError(f"cannot write {path_text(path)}: {fault}")
 
 
 def check_apart(results: Iterable[Path | None], **read: str | Sequence[str] | None) -> None:

@@ -7,7 +7,7 @@ import hashlib
 import inspect
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,11 +15,13 @@ from typing import Annotated, Any
 
 from typer import Option
 
-from ..errors import FileError, InputError, quote, suggest
+from ..errors import FileError, InputError, UnknownName, quote, suggest
+from ..formats import vendors
 from ..formats.content import compressed, pipes
 from ..formats.content.robots import from_text
 from ..formats.load import load
 from ..formats.ros import packages
+from ..formats.vendors.calibration import FactoryCalibration
 from ..formats.xacro import is_xacro
 from ..formats.xacro import xacro as evaluate_xacro
 from ..model.robot import Robot
@@ -46,7 +48,10 @@ Coupling = Annotated[
         help="A joint of each FILE as a sum of readings, which Q then are; may be repeated.",
     ),
 ]
-OPTIONS = ("--xacro", "--xacro-arg", "--coupling")
+NamedArm = Annotated[
+    str | None,
+    Option("--arm", metavar="NAME", help="The arm of a vendor's file that holds several: ARM_1."),
+]
 
 
 @dataclass
@@ -54,12 +59,13 @@ class _Run:
     """Run of a command.
 
     Fields: arguments, the values of --xacro-arg, None without --xacro; coupling, those of
-    --coupling; stdin, what standard input was read for; digests, the SHA-256 of what came through a
-    pipe, which can be read once only, by the name of the argument.
+    --coupling; arm, that of --arm; stdin, what standard input was read for; digests, the SHA-256 of
+    what came through a pipe, which can be read once only, by the name of the argument.
     """
 
     arguments: dict[str, str] | None = None
     coupling: Sequence[str] = ()
+    arm: str | None = None
     stdin: str = ""
     digests: dict[str, str] = field(default_factory=dict)
 
@@ -75,10 +81,7 @@ def model(file: str) -> Robot:
     robot = _loaded(file)
     if not statements:
         return robot
-    try:
-        return robot.coupled(statements)
-    except InputError as fault:
-        raise InputError(f"--{fault}") from fault
+    return robot.coupled(statements)
 
 
 def _loaded(file: str) -> Robot:
@@ -95,7 +98,24 @@ def _loaded(file: str) -> Robot:
     path = os.fspath(packages.local_path(file))
     if arguments is not None and os.path.isfile(path) and is_xacro(path):
         return evaluate_xacro(path, **arguments)
+    of_arm = arm_calibration(path)
+    if of_arm is not None:
+        return of_arm.to_robot()
     return load(file)
+
+
+def arm_calibration(path: str) -> FactoryCalibration | None:
+    """Calibration of the arm that --arm names in a vendor's file; None of other files, or without
+    it.
+    """
+    name = _run().arm
+    if name is None or not _is_vendors(path):
+        return None
+    return vendors.read(path, arm=name)
+
+
+def _is_vendors(path: str) -> bool:
+    return path.lower().endswith(vendors.yaml_io.ENDINGS)
 
 
 def called(file: str) -> str:
@@ -163,17 +183,16 @@ def _sha256(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def refuse_options(words: Sequence[str], options: Sequence[str]) -> None:
+def _check_no_option(words: Sequence[str], options: Iterable[str]) -> None:
     """Refuse what looks like an option and came through as a number might. Raises: InputError."""
     for word in words:
         if word.startswith("--"):
-            every = (*options, *OPTIONS)
-            raise InputError(f"there is no option {quote(word)}; {suggest(word, every)}")
+            raise InputError(f"there is no option {quote(word)}; {suggest(word, options)}")
 
 
 def takes_models(command: Callable[..., None]) -> Callable[..., None]:
-    """Command with the options --xacro, --xacro-arg and --coupling, which `model` obeys while it
-    runs.
+    """Command with the options --xacro, --xacro-arg, --coupling and --arm, which `model` obeys while
+    it runs. Messages about a parameter that is an option speak of the option.
     """
 
     @functools.wraps(command)
@@ -182,6 +201,7 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
         xacro: bool = False,
         xacro_arg: Sequence[str] | None = None,
         coupling: Sequence[str] | None = None,
+        arm: str | None = None,
         **options: Any,
     ) -> None:
         if xacro_arg and not xacro:
@@ -189,9 +209,15 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
         values = None
         if xacro:
             values = dict(map(_pair, xacro_arg or ()))
-        before = _current.set(_Run(values, coupling or ()))
+        if arm is not None and not any(map(_is_vendors, map(str, (*args, *options.values())))):
+            raise InputError("--arm: expected with a vendor's .yaml file, which holds several arms")
+        _check_no_option(options.get("q") or options.get("words") or (), named.values())
+        before = _current.set(_Run(values, coupling or (), arm))
         try:
             command(*args, **options)
+        except (InputError, UnknownName) as fault:  # of the library, about a parameter of its own
+            parameter, colon, rest = str(fault).partition(": ")
+            raise type(fault)(named.get(parameter, parameter) + colon + rest) from fault
         finally:
             _current.reset(before)
 
@@ -208,14 +234,26 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
             ("xacro", False, Xacro),
             ("xacro_arg", None, Given),
             ("coupling", None, Coupling),
+            ("arm", None, NamedArm),
         )
     ]
     whole = own.replace(parameters=[*own.parameters.values(), *more])
+    named = dict(_option_names(whole.parameters.values()))
     vars(run)["__signature__"] = whole
     run.__annotations__ = {
         parameter.name: parameter.annotation for parameter in whole.parameters.values()
     }
     return run
+
+
+def _option_names(parameters: Iterable[inspect.Parameter]) -> Iterator[tuple[str, str]]:
+    """Parameters of a command that are options, and what these are called."""
+    for parameter in parameters:
+        about = parameter.annotation.__metadata__[0]
+        # typer takes the first name for a default, until it looks where it stands
+        for declared in (about.default, *(about.param_decls or ())):
+            if str(declared).startswith("--"):
+                yield parameter.name, declared.partition("/")[0]
 
 
 def _pair(text: str) -> tuple[str, str]:

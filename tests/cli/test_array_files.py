@@ -134,7 +134,7 @@ def test_a_pipe_gets_the_whole_content_and_stays_a_pipe(tmp_path):
 def test_a_place_that_cannot_be_written_is_refused_before_any_work(tmp_path, name):
     (tmp_path / "x.csv").mkdir()
     with pytest.raises(FileError, match="cannot write"):
-        array_files.check_writable(tmp_path / name)
+        array_files.check_place(tmp_path / name)
 
 
 def test_a_file_that_somebody_else_has_under_the_temporary_name_is_not_written_over(

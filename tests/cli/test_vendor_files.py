@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+import poekin as pk
 from tests.formats.vendors.origins import (
     RIZON_4S,
     RIZON_AXES,
@@ -65,3 +66,46 @@ def test_staubli_s_file_is_refused_with_what_to_do_instead(refused, tmp_path):
     path.write_text(STAUBLI, encoding="utf-8")
     assert "pk.calibration.from_fk" in refused("urdf", path, "--output", tmp_path / "out.urdf")
     assert list(tmp_path.iterdir()) == [path]
+
+
+ONE = yaml(RIZON_4S, axes=RIZON_AXES, flange=RIZON_FLANGE, indent="  ").removeprefix(
+    "kinematics:\n"
+)
+OTHER = ONE.replace("0.155", "0.156", 1)
+TWO_ARMS = f"kinematics:\n  ARM_1:\n{ONE}  ARM_2:\n{OTHER}"
+
+
+def test_an_arm_of_a_file_that_holds_several_is_a_model_and_a_calibration(poekin, tmp_path):
+    path, nominal, out = (tmp_path / name for name in ("two.yaml", "one.urdf", "out.urdf"))
+    path.write_text(TWO_ARMS, encoding="utf-8")
+    for arm, height in (("ARM_1", 0.155), ("ARM_2", 0.156)):
+        joint = pk.vendors.read(path, arm=arm).to_robot().joints[0]
+        assert joint.origin[2, 3] == height
+        urdf = poekin("urdf", path, "--arm", arm)[1]
+        assert pk.from_text(urdf).joints[0].origin[2, 3] == height
+    assert poekin("urdf", path, "--arm", "ARM_1", "--output", nominal)[0] == 0
+    assert poekin("apply", nominal, path, "--arm", "ARM_2", "-o", out)[0] == 0
+    compared = [poekin("compare", out, path, "--arm", arm)[0] for arm in ("ARM_1", "ARM_2")]
+    assert compared == [3, 0]  # a base 1 mm higher is another convention
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            ["info", "two.yaml"],
+            "'ARM_2', and none was named: arm= of pk.vendors.read says which, --arm on",
+        ),
+        (["info", "two.yaml", "--arm", "ARM_3"], "and got 'ARM_3'"),
+        (["info", "ur5e", "--arm", "ARM_1"], "--arm: expected with a vendor's .yaml file"),
+        (["apply", "ur5e", "two.yaml", "-o", "out.urdf"], "and none was named"),
+    ],
+    ids=lambda x: " ".join(x) if isinstance(x, list) else "",
+)
+def test_an_arm_that_is_not_named_or_not_there_is_refused(
+    words, message, refused, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "two.yaml").write_text(TWO_ARMS, encoding="utf-8")
+    assert message in refused(*words)
+    assert [path.name for path in tmp_path.iterdir()] == ["two.yaml"]

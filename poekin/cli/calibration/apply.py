@@ -9,7 +9,6 @@ from typing import Annotated, NamedTuple
 import numpy as np
 from typer import Argument, Option
 
-from ...errors import InputError
 from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import own_urdf
 from ...groups import se3, so3
@@ -18,7 +17,7 @@ from ...model.robot import Robot
 from ...solve.calibration.apply import apply
 from ..array_files import check_apart, check_place
 from ..kinematics.arm import File, Json
-from ..model import model
+from ..model import arm_calibration, model
 from ..output import as_json, name, number, path_text, say, table
 from .outputs import say_written
 
@@ -66,10 +65,8 @@ def command(
     check_place(output, (".urdf",))
     check_apart([output], model=file, calibration=str(calibration))
     robot = model(file)
-    try:
-        calibrated = apply(robot, calibration, base=base, tip=tip, force=force)
-    except InputError as fault:
-        raise InputError(str(fault).replace("force=True", "--force")) from fault
+    given = arm_calibration(str(calibration)) or calibration
+    calibrated = apply(robot, given, base=base, tip=tip, force=force)
     write_whole(output, own_urdf(calibrated))
     moved = _changes(robot, calibrated)
     if json:

@@ -10,13 +10,15 @@ from typing import Annotated, Any
 import typer
 from typer import Argument, Option
 
-from ...errors import InputError, UnknownName, quote
+from ...checks import choice
+from ...errors import InputError, UnknownName
 from ...formats.dh.table import CONVENTIONS
 from ...model.chain import Chain
 from ...model.robot import Robot
 from ...solve.calibration.calibrate import calibrate
 from ...solve.calibration.calibration import Calibration
 from ...solve.calibration.exact.from_fk_result import FromFk
+from ...solve.calibration.measurements.header import Convention
 from ...solve.calibration.report import changes
 from ...solve.calibration.report.summary import MOST_OUTLIERS
 from ..array_files import check_apart, check_place
@@ -120,7 +122,9 @@ Output = Annotated[
         help="Everything (.toml), the calibrated robot (.urdf) or a DH table (.csv); may be repeated.",
     ),
 ]
-Convention = Annotated[str, Option("--dh", help="The convention of a .csv: standard or modified.")]
+DhConvention = Annotated[
+    str, Option("--dh", help="The convention of a .csv: standard or modified.")
+]
 Exact = Annotated[
     bool,
     Option("--exact", help="The poses are a controller's own forward kinematics, without noise."),
@@ -152,7 +156,7 @@ def command(
     mm: Mm = None,
     deg: Deg = None,
     output: Output = None,
-    convention: Convention = "standard",
+    convention: DhConvention = "standard",
     report: Report = None,
     exact: Exact = False,
     json: Json = False,
@@ -163,11 +167,9 @@ def command(
     outputs = Outputs(list(output or ()), convention, report)
     for place in outputs.paths:
         check_place(place, ENDINGS)
-    if report:
-        check_place(report, (".html", ".htm"))
+    check_place(report, (".html", ".htm"))
     check_apart([*outputs.paths, report], model=file, measurements=files)
-    if convention not in CONVENTIONS:
-        raise InputError(f"--dh: expected standard or modified, got {quote(convention)}")
+    choice(convention, CONVENTIONS, "convention")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     said = MeasurementOptions(
@@ -178,7 +180,7 @@ def command(
         sigma_angle,
         sigma_length,
         ignore or (),
-        measured.convention(format, mm, deg),
+        Convention.of(format, mm, deg),
     )
     options: dict[str, Any] = {
         "parameters": _listed(parameters) or ("screws", "home"),
@@ -239,16 +241,15 @@ _OPTIONS = {
     "with the readings coupled, '": "with --coupling '",
     "covariance=": "--sigma-angle and --sigma-length",
     "folds=0": "--folds 0",
+    "give radians (numpy.deg2rad)": "--deg says so",
+    "(divide by 1000)": "(divide by 1000, or --mm, which is of sliding joints too)",
+    "points: ": "--point: ",
     "parameters=": "--parameters",
     "joints=": "--joints",
     "prior['rad']": "--prior-angle",
     "prior['m']": "--prior-length",
 }
 _IGNORED = re.compile(r"ignore=\[('([\w.:/+-]+)'|'.*')\] passes it over")
-_NAMES = {"points": "--point"} | {
-    word: f"--{word.replace('_', '-')}"
-    for word in ("kind", "parameters", "joints", "loss", "folds", "seed", "on_rank_deficiency")
-}
 
 
 def _as_options(message: str) -> str:
@@ -258,8 +259,7 @@ def _as_options(message: str) -> str:
     if column := _IGNORED.search(message):
         # a plain name as it is to be typed; any other in quotes, which a shell takes off
         message = message.replace(column[0], f"--ignore {column[2] or column[1]} passes it over")
-    what, colon, rest = message.partition(":")
-    return _NAMES.get(what, what) + colon + rest
+    return message
 
 
 def _listed(words: Sequence[str] | None) -> list[str] | None:

@@ -31,9 +31,8 @@ def check(said: MeasurementOptions, fit: Mapping[str, object]) -> None:
         given[name] = getattr(said, name) is not None
     for name, is_given in given.items():
         if is_given:
-            option = _NAMES.get(name, f"--{name.replace('_', '-')}")
             raise InputError(
-                f"{option}: expected without --exact, which takes poses that a controller "
+                f"{_NAMES.get(name, name)}: expected without --exact, which takes poses that a controller "
                 "calculated, without noise, and fits all axes and the home pose"
             )
 

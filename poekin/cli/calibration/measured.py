@@ -45,14 +45,6 @@ _TAKES = {"points": ("point", "frame"), "distances": ("point", "centre")}
 """The options that say something of measurements of a kind."""
 
 
-def convention(format: str | None, mm: bool | None, deg: bool | None) -> Convention:
-    """Convention that --format, --mm and --deg name. Raises: InputError."""
-    try:
-        return Convention.of(format, mm, deg)
-    except InputError as fault:
-        raise InputError(f"--{fault}") from fault
-
-
 def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Measured:
     """The measurements in files, one set a file.
 

@@ -37,12 +37,13 @@ class Outputs:
             if path.suffix.lower() == ".toml":
                 found.save(path)
                 self.written.append(str(path))
-        contents: list[tuple[Path, bytes]] = []
-        for path in self.paths:
-            if path.suffix.lower() == ".urdf":
-                contents.append((path, own_urdf(found.to_robot(robot))))
-            elif path.suffix.lower() == ".csv":
-                contents.append((path, self._dh(found)))
+        endings = {path.suffix.lower() for path in self.paths}
+        made: dict[str, bytes] = {}  # once for all files of a kind, and so are its warnings
+        if ".urdf" in endings:
+            made[".urdf"] = own_urdf(found.to_robot(robot))
+        if ".csv" in endings:
+            made[".csv"] = self._dh(found)
+        contents = [(p, made[p.suffix.lower()]) for p in self.paths if p.suffix.lower() in made]
         if self.report is not None:
             title = f"Calibration of {robot.name}: {found.chain.base} to {found.chain.tip}"
             page = html_report.html(found, title, sources)

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...analysis.compare.comparison import Comparison
-from ...errors import InputError
 from ...formats.poses import pose_rows
 from ...formats.poses.layout import Layout
 from ...formats.poses.write import line
@@ -26,13 +25,9 @@ def frame_layout(
     deg: bool | None,
 ) -> Layout | None:
     """Layout of --format, None without one. Raises: InputError."""
-    if format is not None:
-        return pose_layout(format, quaternion, Units(mm, deg))
-    given = {"--quaternion": quaternion, "--mm": mm, "--deg": deg}
-    for option, value in given.items():
-        if value is not None:
-            raise InputError(f"{option}: expected together with --format only")
-    return None
+    if {format, quaternion, mm, deg} == {None}:
+        return None
+    return pose_layout(format, quaternion, Units(mm, deg), joints=False)
 
 
 def frame_lines(result: Comparison, chosen: Layout) -> list[str]:

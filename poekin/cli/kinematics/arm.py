@@ -16,7 +16,7 @@ from ...formats.text import csv_rows
 from ...model.chain import Chain
 from .. import array_files
 from ..formats.units import SI, Units, beyond_limits
-from ..model import model, refuse_options
+from ..model import model
 from ..output import Progress, as_json, complain, heading, matrix, name, number, path_text, say
 from . import poses
 
@@ -86,7 +86,6 @@ def take(
     Raises: what `model`, `Robot.chain` and reading do.
     """
     words = list(q or ())
-    refuse_options(words, ("--tip", "--base", "--frame", "--input", "--output", "--json"))
     values = poses.numbers(words, "coordinate")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)

@@ -23,13 +23,6 @@ def check(output: Path | None, duration: float | None, acceleration: str | None)
         raise InputError(
             "--fastest: expected together with --acceleration, as no model states its limits"
         )
-    if output is None:
-        return
-    if output.suffix.lower() not in ENDINGS:
-        raise FileError(
-            f"cannot write {path_text(output)}: with --fastest a name that ends in "
-            f"{', '.join(ENDINGS)} expected"
-        )
     array_files.check_place(output, ENDINGS)
 
 
@@ -60,6 +53,8 @@ def give(
             complain(sentence)
         complain("no trajectory is made of a path that breaks")
         return poses.UNSOLVED
+    if not path.largest_step:
+        raise InputError("--input: with --fastest two poses or more expected, not all the same")
     trajectory = path.time_optimal(acceleration, speed=speed)
     svg = ""
     if plot is not None:

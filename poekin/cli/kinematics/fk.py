@@ -9,9 +9,8 @@ from typing import Annotated
 import numpy as np
 from typer import Option
 
-from ...errors import InputError
 from ...formats.poses import pose_rows
-from ...formats.poses.layout import OF_CONTROLLERS, Layout, layout
+from ...formats.poses.layout import Layout, layout
 from ...formats.poses.write import line
 from .. import array_files
 from ..formats.units import SI, Deg, Mm, Units
@@ -59,25 +58,17 @@ def command(
     json: Json = False,
 ) -> None:
     """Pose (4×4, in m) of the link --tip in the link --base, at Q or at every line of --input."""
-    array_files.check_writable(output)
+    array_files.check_place(output)
     array_files.check_apart([output], model=file, configurations=given)
     units = Units(mm, deg)
-    chosen = _layout(format, quaternion, units)
+    chosen = None
+    if format is not None or quaternion is not None:
+        chosen = poses.pose_layout(format, quaternion, units)
     arm = take(file, tip, base, q, given, units=units)
     T = compute(arm, arm.chain.fk, (4, 4))
     title = f"pose of {name(arm.chain.tip)} in {name(arm.chain.base)} (m)"
     entries = layout("matrix").columns
     give(arm, PoseResults(T, "T", title, entries, units=units, layout=chosen), output, json)
-
-
-def _layout(format: str | None, quaternion: str | None, units: Units) -> Layout | None:
-    if format is not None:
-        if format in OF_CONTROLLERS:  # its units are its own: --mm and --deg are those of joints
-            units = SI
-        return poses.pose_layout(format, quaternion, units)
-    if quaternion is not None:
-        raise InputError("--quaternion: expected together with --format quat only")
-    return None
 
 
 @dataclass(frozen=True)

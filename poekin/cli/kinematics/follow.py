@@ -111,9 +111,8 @@ def command(
         fastest_files.check(output, duration, acceleration)
     else:
         fastest_files.check_unasked(output)
-        array_files.check_writable(output)
-    if plot is not None:
-        array_files.check_place(plot, (".svg",))
+        array_files.check_place(output)
+    array_files.check_place(plot, (".svg",))
     if given is None:
         raise InputError("--input: a file of poses expected, got none")
     array_files.check_apart([output, plot], model=file, poses=given)

@@ -60,7 +60,7 @@ def command(
     """Joints with which the link --tip has a pose in the link --base. Exit code 0 all solved, 1
     some not, 2 error.
     """
-    array_files.check_writable(output)
+    array_files.check_place(output)
     array_files.check_apart([output], model=file, poses=given)
     units = Units(mm, deg)
     T = poses.read(words, given, format, quaternion, units)

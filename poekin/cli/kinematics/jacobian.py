@@ -33,7 +33,7 @@ def command(
     """Jacobian (6×m, rows omega then v, in rad/s and m/s per unit rate) of the link --tip relative
     to --base.
     """
-    array_files.check_writable(output)
+    array_files.check_place(output)
     array_files.check_apart([output], model=file, configurations=given)
     which = parse_frame(frame, FRAME_NAMES)
     arm = take(file, tip, base, q, given)

@@ -19,7 +19,6 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from .. import array_files
 from ..formats.units import SI, Units
-from ..model import refuse_options
 from ..output import Progress, name
 
 FORMAT_HELP = (
@@ -71,10 +70,6 @@ Task = Annotated[
 ]
 NoLimits = Annotated[bool, Option("--no-limits", help="Let the joints leave their limits.")]
 
-OPTIONS = (
-    *("--tip", "--base", "--input", "--format", "--quaternion", "--q0", "--nearest-to", "--task"),
-    *("--mm", "--m", "--deg", "--rad", "--no-limits", "--output", "--json", "--seed"),
-)
 UNSOLVED = 1
 """The exit code where not all is solved."""
 
@@ -89,7 +84,6 @@ def read(
     """The poses (N, 4, 4) that a command line names; NaN where a row is not finite. Raises:
     InputError, PoseError, FileError, with file and line.
     """
-    refuse_options(words or (), OPTIONS)
     chosen = pose_layout(format, quaternion, units)
     if given is not None:
         if words:
@@ -103,16 +97,21 @@ def read(
     return T
 
 
-def pose_layout(format: str | None, quaternion: str | None, units: Units) -> Layout:
-    """Layout that --format, --quaternion, --mm and --deg name. Raises: InputError."""
+def pose_layout(
+    format: str | None,
+    quaternion: str | None,
+    units: Units,
+    *,
+    joints: bool = True,
+) -> Layout:
+    """Layout that --format, --quaternion, --mm and --deg name; joints, whether --deg is of joints too.
+    Raises: InputError.
+    """
     if format is None:
         raise InputError(
             f"--format: expected one of {NAMED}; the format of a pose is never guessed"
         )
-    try:
-        return layout(format, quaternion, mm=units.mm, deg=units.deg)
-    except InputError as fault:
-        raise InputError(f"--{fault}") from fault
+    return layout(format, quaternion, mm=units.mm, deg=units.deg, joints=joints)
 
 
 def _read_file(given: str, chosen: Layout, units: Units) -> Array:

@@ -120,10 +120,7 @@ def _conventions(same: str) -> tuple[Convention, ...]:
     words = [word.strip() for word in same.split(",")]
     if words == [""]:
         words = []
-    try:
-        return checked(words)
-    except InputError as error:
-        raise InputError(f"--{error}") from None
+    return checked(words)
 
 
 def _chosen(

@@ -80,8 +80,13 @@ def layout(
     *,
     mm: bool | None = None,
     deg: bool | None = None,
+    joints: bool = False,
 ) -> Layout:
-    """Layout of a format. Parameters: those of `poekin.poses.from_numbers`. Raises: InputError."""
+    """Layout of a format.
+
+    Parameters: those of `poekin.poses.from_numbers`; joints, whether `deg` is said of joints too: a
+    controller's format then keeps its own angles. Raises: InputError.
+    """
     if not isinstance(format, str) or format not in _LAYOUTS:
         raise InputError(f"format: expected one of {NAMED}; got {safe_repr(format)}")
     for name, value in (("mm", mm), ("deg", deg)):
@@ -97,7 +102,7 @@ def layout(
     asked = found
     if mm is not None:
         asked = asked._replace(length="mm" if mm else "m")
-    if deg is not None:
+    if deg is not None and not (joints and format in OF_CONTROLLERS):
         asked = asked._replace(angle="deg" if deg else "rad")
     if format in OF_CONTROLLERS:
         _check_units(asked, found)

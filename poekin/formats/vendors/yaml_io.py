@@ -210,7 +210,8 @@ def _entries(
         if arm is not None:
             got = f"got {quote(arm)}"
         raise ModelError(
-            f"{where}: it has the arms {join_names(arms)}, and {got}: arm= of pk.vendors.read says which"
+            f"{where}: it has the arms {join_names(arms)}, and {got}: arm= of pk.vendors.read says which,"
+            " --arm on the command line"
         )
     return arms[arm]
 

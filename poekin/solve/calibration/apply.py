@@ -203,7 +203,7 @@ def _refuse_other_arm(
         f"the calibration is not of the arm {quote(robot.name)}, from {quote(nominal.base)} to"
         f" {quote(nominal.tip)}: {words}, and one of the same arm moves them by less than"
         f" {LARGEST.summary()}{_other_end(robot, nominal, judged)}{_fits(judged)};"
-        " force=True puts it on all the same"
+        " force=True (--force) puts it on all the same"
     )
 
 

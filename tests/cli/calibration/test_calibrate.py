@@ -14,6 +14,8 @@ import pytest
 import poekin as pk
 from poekin.cli.calibration import calibrate as command
 from poekin.cli.calibration.measured import MeasurementOptions, read
+from poekin.cli.calibration.outputs import Outputs
+from poekin.errors import PoekinWarning
 from poekin.solve.calibration import Distances, Points, Poses, calibrate
 from poekin.solve.calibration.measurements import data
 from poekin.solve.calibration.measurements.simulated import simulated
@@ -399,7 +401,8 @@ def test_faults_in_a_row_name_file_and_line(refused, csv):
 
 def test_degrees_for_radians_are_suggested_not_converted(refused, measured, tmp_path):
     data.write(tmp_path / "deg.csv", PANDA, np.rad2deg(measured.q), measured.measurements)
-    assert "the joint angles look like degrees" in refused(*ARM, tmp_path / "deg.csv")
+    said = refused(*ARM, tmp_path / "deg.csv")
+    assert "the joint angles look like degrees: --deg says so\n" in said
 
 
 def test_what_python_calls_its_parameters_is_told_as_options(refused, measured, tmp_path):
@@ -477,7 +480,7 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(
         (["--parameters", "screw"], "--parameters: expected some of"),
         (["--joints", "elbow"], "--joints: no joint 'elbow'"),
         (["--folds", "1"], "--folds: expected 0 for none, or 2 and more, got 1"),
-        (["--dh", "craig"], "--dh: expected standard or modified, got 'craig'"),
+        (["--dh", "craig"], "--dh: expected 'standard' or 'modified', got 'craig'"),
         (
             ["-o", "a.txt"],
             "cannot write 'a.txt': a name that ends in .toml or .urdf or .csv expected",
@@ -485,7 +488,7 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(
         (["--report", "a.txt"], "cannot write 'a.txt': a name that ends in .html or .htm expected"),
         (
             ["-o", "none/a.toml"],
-            "cannot write 'none/a.toml': it is a directory, or there is none for it",
+            "cannot write 'none/a.toml': there is no directory 'none'",
         ),
         (["-o", "a.toml", "-o", "./a.toml"], "cannot write 'a.toml': it is named twice"),
     ],
@@ -530,3 +533,18 @@ def test_outliers_beyond_the_first_are_counted():
     assert command._locations(["a.csv:1"] * (2 * MOST_OUTLIERS + 1)).endswith(
         f" and {MOST_OUTLIERS + 1} more"
     )
+
+
+def test_two_files_of_one_kind_are_one_text_and_its_warnings_are_said_once(tmp_path, capsys):
+    arm = pk.load("ur5e").chain(tip="wrist_3_link")
+    made = simulated(arm, 20, tilt=1e-3, shift=1e-3, noise=(1e-5, 1e-5), seed=0)
+    found = pk.calibrate(arm, made.q, made.measurements, folds=0)
+    paths = [tmp_path / name for name in ("a.urdf", "b.urdf", "a.csv", "b.csv")]
+    with pytest.warns(PoekinWarning, match="wrist_3_link_tool") as caught:
+        Outputs(paths, "standard", None).write(found, pk.load("ur5e"), [])
+    assert len(caught) == 1
+    said = capsys.readouterr().err.splitlines()
+    assert said
+    assert len(set(said)) == len(said)
+    for ending in ("urdf", "csv"):
+        assert (tmp_path / f"a.{ending}").read_bytes() == (tmp_path / f"b.{ending}").read_bytes()

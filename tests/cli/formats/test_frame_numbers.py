@@ -47,9 +47,9 @@ def test_base_and_tool_are_printed_as_the_controller_takes_them(urdf, poekin):
 WRONG = {
     "format": (["--format", "euler"], "--format: expected one of matrix, quat"),
     "no order": (["--format", "quat"], "--quaternion: the format quat needs the order"),
-    "no format": (["--mm"], "--mm: expected together with --format only"),
-    "degrees alone": (["--deg"], "--deg: expected together with --format only"),
-    "order alone": (["--quaternion", "wxyz"], "--quaternion: expected together with --format only"),
+    "no format": (["--mm"], "--format: expected one of matrix, quat"),
+    "degrees alone": (["--deg"], "--format: expected one of matrix, quat"),
+    "order alone": (["--quaternion", "wxyz"], "--format: expected one of matrix, quat"),
     "units": (["--format", "ur", "--mm"], "--format: ur is in m and rad, mm was said"),
 }
 

@@ -243,15 +243,15 @@ WRONG = {
     "fk: no format": (["fk", *UR5E, *Q, "--format", "euler"], "--format: expected one of matrix, quat"),
     "fk: no order": (["fk", *UR5E, *Q, "--format", "quat"], "--quaternion: the format quat needs the order"),
     "fk: an order of nothing": (["fk", *UR5E, *Q, "--quaternion", "wxyz"],
-                                "--quaternion: expected together with --format quat only"),
+                                "--format: expected one of matrix, quat"),
     "fk: an order for kuka": (["fk", *UR5E, *Q, "--format", "kuka", "--quaternion", "wxyz"],
                               "--quaternion: the format kuka does not take an order"),
     "fk: a header in rad": (["fk", *UR5E, "--input", "rad.csv", "--deg"],
                             "the header says that 'shoulder_pan_joint' is in rad"),
     "ik: metres for kuka": (["ik", *UR5E, "--format", "kuka", "--m", *range(6)],
                             "--format: kuka is in mm and deg, m was said"),
-    "ik: degrees for ur": (["ik", *UR5E, "--format", "ur", "--deg", *range(6)],
-                           "--format: ur is in m and rad, deg was said"),
+    "fk: millimetres for ur": (["fk", *UR5E, *Q, "--format", "ur", "--mm"],
+                               "--format: ur is in m and rad, mm was said; the format rotvec takes other units"),
     "ik: two poses": (["ik", *UR5E, "--format", "ur", "p[1,2,3,0,0,0]\np[1,2,3,0,0,0]"], "one pose expected, got 2"),
     "ik: a part": (["ik", *UR5E, "--format", "kuka", "{A 30}"], "the pose:1: expected X, Y, Z, A, B, C; X is missing"),
     "ik: seven": (["ik", *UR5E, "--format", "abc", *range(7)],
@@ -296,10 +296,26 @@ def test_a_wrong_format_or_unit_is_exit_code_2_with_one_message_and_nothing_writ
 
 def test_a_controllers_units_are_its_own_and_degrees_of_fk_those_of_the_joints(as_json):
     for format in OF_CONTROLLERS:
-        found = as_json("fk", *UR5E, "--deg", "--mm", *DEGREES, "--format", format)
+        found = as_json("fk", *UR5E, "--deg", *DEGREES, "--format", format)
         assert found["units"] == list(layout(format).units)
         np.testing.assert_allclose(
             found["numbers"], numbers(ARM.fk(np.radians(DEGREES)), format), rtol=0, atol=1e-12
         )
     found = as_json("fk", *UR5E, "--deg", *DEGREES, "--format", "rpy")
     assert found["units"] == ["m", "m", "m", "deg", "deg", "deg"]
+
+
+@pytest.mark.parametrize("format", OF_CONTROLLERS)
+def test_degrees_are_those_of_the_joints_where_poses_of_a_controller_come_in(
+    format, poekin, tmp_path
+):
+    text = pk.poses.write(ARM.fk(np.radians([DEGREES, DEGREES])), format)
+    (tmp_path / "path.txt").write_text(text)
+    words = [*UR5E, "--format", format, "--deg", "--q0", ",".join(map(str, DEGREES))]
+    for command in ("ik", "follow"):
+        code, out, _ = poekin(command, *words, "--input", tmp_path / "path.txt")
+        header, rows = table(out)
+        assert code == 0
+        assert header[0] == f"{ARM.q_names[0]} [deg]"
+        # rx ry rz of ur are written in rad, to as many digits as a float has; abb's are quaternions
+        np.testing.assert_allclose(rows[0, :6], DEGREES, rtol=0, atol=1e-4)

@@ -182,9 +182,9 @@ def test_options_that_make_no_sense_are_refused_and_nothing_is_written(
 @pytest.mark.parametrize(
     ("name", "says"),
     [
-        ("t.npy", "with --fastest a name that ends in .csv, .yaml, .yml, .json, .script expected"),
-        ("t", "with --fastest a name that ends in"),
-        ("no/t.csv", "it is a directory, or there is none for it"),
+        ("t.npy", "a name that ends in .csv or .yaml or .yml or .json or .script expected"),
+        ("t", "a name that ends in .csv or .yaml or"),
+        ("no/t.csv", "there is no directory"),
         ("T.csv", "it is the file of the poses"),
     ],
 )
@@ -214,4 +214,47 @@ def test_a_script_for_another_arm_is_refused(refused, tmp_path):
     out = tmp_path / "t.script"
     said = refused("follow", "panda", "--tip", "panda_hand", *words, "--output", out)
     assert "URScript: expected an arm with 6 revolute joints" in said
+    assert not out.exists()
+
+
+POSE = "0.4,0.1,0.5,0,3.1,0\n"
+LOWER = "0.4,0.1,0.45,0,3.1,0\n"
+SPOKEN_OF = {
+    "one pose": (
+        POSE,
+        ["--speed", 1],
+        "--input: with --fastest two poses or more expected, not all the same",
+    ),
+    "nothing moves": (
+        POSE * 2,
+        ["--speed", 1],
+        "--input: with --fastest two poses or more expected, not all the same",
+    ),
+    "no speeds": (POSE + LOWER, [], "--speed: the model states no limit for 'shoulder_pan_joint'"),
+    "a speed of 0": (POSE + LOWER, ["--speed", 0], "--speed: expected positive numbers"),
+}
+
+
+@pytest.mark.parametrize("case", SPOKEN_OF)
+def test_a_refusal_speaks_of_the_option_and_not_of_the_library_s_parameter(case, refused, tmp_path):
+    text, words, message = SPOKEN_OF[case]
+    path, out = tmp_path / "T.csv", tmp_path / "t.yaml"
+    path.write_text(text)
+    model = tmp_path / "arm.urdf"
+    model.write_text(pk.to_urdf(pk.load("ur5e")).replace('velocity="', 'velocity="0" was="'))
+    said = refused(
+        "follow",
+        model,
+        "--tip",
+        "tool0",
+        "--input",
+        path,
+        "--format",
+        "ur",
+        *FASTEST,
+        *words,
+        "-o",
+        out,
+    )
+    assert said.startswith(f"poekin: error: {message}")
     assert not out.exists()

@@ -326,7 +326,7 @@ def test_a_damaged_npy_is_refused(crane, refused, tmp_path, content):
         ),
         (
             ["--tip", "hook", "1", "2", "--output", "T.txt"],
-            "a name that ends in .csv, .npy or .json expected",
+            "a name that ends in .csv or .npy or .json expected",
         ),
         (["--tip", "hook", "1", "2", "--output", "no/T.csv"], "there is no directory 'no'"),
     ],

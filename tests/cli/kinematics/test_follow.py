@@ -183,7 +183,7 @@ def test_a_plot_without_matplotlib_names_the_extra_and_writes_nothing(
         ),
         (
             ["--input", "T.csv", "--format", "12", "--plot", "/no/q.svg"],
-            "it is a directory, or there is none for it",
+            "there is no directory",
         ),
         (
             ["--input", "T.csv", "--format", "12", "--output", "/no/q.csv"],
@@ -207,7 +207,7 @@ def test_what_cannot_be_done_is_refused_at_once(call, says, refused):
         (["--duration", "1", "--speed", "0"], "speed: expected positive numbers"),
         (["--duration", "1", "--speed", "1,2"], "--speed: 7 coordinates expected"),
         (["--q0", "1"], "--q0: 7 coordinates expected"),
-        (["--max-step", "0"], "max_step: expected positive"),
+        (["--max-step", "0"], "--max-step: expected positive"),
     ],
     ids=lambda x: " ".join(x) if isinstance(x, list) else None,
 )

@@ -208,7 +208,7 @@ def test_an_empty_file_is_an_empty_batch(poekin, tmp_path):
         (["--format", 12, "--q0", "1,2", *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "--q0: 7 coordinates expected"),
         (["--format", 12, "--q0", "a", *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "--q0: number 1: a number expected"),
         (["--format", 12, "--output", "/no/q.csv", 1], "there is no directory '/no'"),
-        (["--format", 12, "--output", "q.txt", 1], "a name that ends in .csv, .npy or .json expected"),
+        (["--format", 12, "--output", "q.txt", 1], "a name that ends in .csv or .npy or .json expected"),
     ],
     ids=lambda x: " ".join(map(str, x))[:40] if isinstance(x, list) else None,
 )  # fmt: skip

@@ -16,8 +16,6 @@ TWELVE = "T00, T01, T02, T03, T10, T11, T12, T13, T20, T21, T22, T23"
 ROW = ["1", "0", "0", "0.1", "0", "1", "0", "0.2", "0", "0", "1", "0.3"]
 
 REFUSED = {
-    "option": (lambda: poses.read(["--inptu"], None, "12", None),
-               "there is no option '--inptu'; did you mean '--input'?"),
     "format": (lambda: poses.read(ROW, None, None, None),
                f"--format: expected one of {NAMED}; the format of a pose is never guessed"),
     "both": (lambda: poses.read(ROW, "T.csv", "12", None),
@@ -40,8 +38,6 @@ REFUSED = {
                   "coordinate 2: a number expected, got 'x'"),
     "both ways": (lambda: arm.take("stanford", None, None, ["1", "2"], "q.csv"),
                   "either coordinates or --input expected, got both ('1' and 'q.csv')"),
-    "no option": (lambda: arm.take("stanford", None, None, ["--fram"], None),
-                  "there is no option '--fram'; did you mean '--frame'?"),
 }  # fmt: skip
 
 
@@ -80,3 +76,18 @@ def test_results_are_computed_some_at_a_time_and_all_of_them(rows, monkeypatch):
     T = arm.compute(arm.ChainArguments("r", CHAIN, q, False), function, (4, 4))
     np.testing.assert_array_equal(T, CHAIN.fk(q))
     assert sizes == [2] * (rows // 2) + [1] * (rows % 2)
+
+
+@pytest.mark.parametrize(
+    ("words", "close"),
+    [
+        (["singularity", "stanford", "--tipp", "1"], "'--tip'"),
+        (["ik", "stanford", "--inptu", "1"], "'--input'"),
+        (["fk", "stanford", "--mn", "1"], "'--mm'"),
+        (["fk", "stanford", "1", "--couplin"], "'--coupling'"),
+    ],
+)
+def test_a_misspelt_option_is_told_from_a_number_with_those_of_the_command(words, close, refused):
+    said = refused(*words)
+    assert said.startswith("poekin: error: there is no option '--")
+    assert f"did you mean {close}" in said

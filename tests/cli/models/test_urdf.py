@@ -174,8 +174,8 @@ def test_the_user_s_own_text_may_come_out_of_a_pipe(mine, poekin, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--into", "none.urdf"], "none.urdf: no such file"),
-        (["--into", "puma560"], "into: the robot 'puma560' was not read from a URDF"),
+        (["--into", "none.urdf"], "none.urdf: no such file\n"),
+        (["--into", "puma560"], "error: --into: the robot 'puma560' was not read from a URDF"),
         (["--into", "bad.urdf"], "bad.urdf:1: malformed XML"),
         (["--into", "ur.urdf"], "ur.urdf has joints that the robot has not: 'turn2'"),
         (["--into", "ur.urdf", "--output", "crane.urdf"], "it is the file of the model"),

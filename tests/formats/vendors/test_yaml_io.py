@@ -108,13 +108,13 @@ def test_of_two_arms_the_one_that_is_named_is_read():
             TWO_ARMS,
             None,
             "f.yaml:2: kinematics: it has the arms 'ARM_1', 'ARM_2', and none was named: arm= of"
-            " pk.vendors.read says which",
+            " pk.vendors.read says which, --arm on the command line",
         ),
         (
             TWO_ARMS,
             "left",
             "f.yaml:2: kinematics: it has the arms 'ARM_1', 'ARM_2', and got 'left': arm= of"
-            " pk.vendors.read says which",
+            " pk.vendors.read says which, --arm on the command line",
         ),
         (
             yaml(UFACTORY["xarm6"]),

@@ -160,7 +160,7 @@ def test_a_ur10e_s_calibration_on_a_ur5e_is_refused_unless_forced():
         caught.value,
         "the calibration is not of the arm 'ur5e', from 'base' to 'tool0': the axis of 'elbow_joint'"
         " is 189 mm and 0° off, the tip 'tool0' is 372 mm and 0° off, and one of the same arm moves"
-        " them by less than 20 mm and 3°; it fits 'ur10e', within 0 mm and 0°; force=True puts it on"
+        " them by less than 20 mm and 3°; it fits 'ur10e', within 0 mm and 0°; force=True (--force) puts it on"
         " all the same",
     )
     forced = pk.calibration.apply(robot, ur10e(), force=True)
@@ -224,7 +224,7 @@ def test_a_chain_goes_between_the_links_that_it_is_called_after():
         caught.value,
         "the calibration is not of the arm 'panda', from 'panda_link0' to 'panda_hand': the axis of"
         " 'panda_joint1' is 30 mm and 0° off, the tip 'panda_hand' is 30 mm and 0° off, and one of"
-        " the same arm moves them by less than 20 mm and 3°; force=True puts it on all the same",
+        " the same arm moves them by less than 20 mm and 3°; force=True (--force) puts it on all the same",
     )
 
 

@@ -7,6 +7,7 @@ from collections import Counter
 from typing import NamedTuple
 
 from ....errors import InputError, UnknownName, join_names, quote, suggest
+from ....formats.poses.layout import FORMATS
 from ....formats.poses.layout import Layout as PoseLayout
 from ....formats.poses.layout import layout as pose_layout
 from ....formats.text.numbers import real
@@ -62,6 +63,10 @@ def parse_header(
     Raises: UnknownName, InputError, that begin with `here`.
     """
     words = [word for word in header if word not in ignore]
+    if words and all(real(word) is not None for word in words):
+        raise InputError(
+            f"{here}: a first line that names the columns expected, it has numbers alone"
+        )
     for word, times in Counter(words).items():
         if times > 1:
             raise InputError(f"{here}: the column {quote(word)} is there {times} times")
@@ -78,10 +83,6 @@ def parse_header(
         names = q_names
     missing = [name for name in names if name not in given]
     if missing:
-        if all(real(word) is not None for word in words):
-            raise InputError(
-                f"{here}: a first line that names the columns expected, it has numbers alone"
-            )
         raise InputError(
             f"{here}: no column for the coordinate {quote(missing[0])}; expected {join_names(q_names)},"
             f" or q1 ... q{len(q_names)}"
@@ -98,6 +99,11 @@ def _fault(
     if not rest:
         return InputError(f"{here}: no column of a measurement; expected {_expected(fixed)}")
     there = set(rest)
+    if formats := _formats(there):
+        return InputError(
+            f"{here}: the columns {' '.join(pose_layout(formats[0]).columns)} make a pose of "
+            f"{join_names(formats)}: format= (--format) says of which"
+        )
     every = [layout for layout in (*fixed, _points(there)) if layout.columns]
     whole = [layout for layout in every if set(layout.columns) <= there]
     if whole:
@@ -117,6 +123,14 @@ def _fault(
         f"{here}: {quote(rest[0])} is neither a coordinate nor part of a measurement ({_expected(fixed)});"
         f" {close}"
     )
+
+
+def _formats(words: set[str]) -> list[str]:
+    """Formats of poses whose three angles or parts of a vector are there, in whatever case."""
+    there = {word.casefold() for word in words}
+    angles = [name for name in FORMATS if name not in ("quat", "7")]
+    layouts = [layout for layout in map(pose_layout, angles) if len(layout.columns) == 6]
+    return [x.format for x in layouts if there.issuperset(map(str.casefold, x.columns))]
 
 
 def _expected(fixed: tuple[Layout, ...]) -> str:

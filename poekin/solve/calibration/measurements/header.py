@@ -30,7 +30,7 @@ class Convention(NamedTuple):
         if format is None:
             return cls(None, mm, deg)
         order = "wxyz" if format in ("quat", "7") else None
-        return cls(pose_layout(format, order, mm=mm, deg=deg), mm, deg)
+        return cls(pose_layout(format, order, mm=mm, deg=deg, joints=True), mm, deg)
 
     @property
     def length(self) -> LengthUnit:

@@ -38,10 +38,9 @@ def test_poses_are_read_in_every_format_with_joints_in_the_units_that_are_said(
     order = "wxyz" if format in ("quat", "7") else None
     plain = layout(format, order)
     free = {"mm": mm, "deg": deg} if format not in OF_CONTROLLERS else {}
-    if not free and ({mm, deg} != {None}):
-        said = {"mm": plain.length == "m"}
+    if not free and mm is (plain.length == "m"):
         with pytest.raises(InputError, match=f"^format: {format} is in "):
-            read(tmp_path / "none.csv", ARM, format=format, **said)
+            read(tmp_path / "none.csv", ARM, format=format, mm=mm, deg=deg)
         return
     chosen = layout(format, order, **free)
     numbers = pk.poses.to_numbers(T, format, quaternion=order, **free)
@@ -99,9 +98,15 @@ REFUSED = {
         "{}:1: the header says that 'q1' is in rad, and it was said to be in deg; leave one of the two out"),
     "a joint in mm": ("q1 [mm],q2,X,Y,Z,A,B,C", {"format": "abc"}, InputError, "{}:1: 'q1' in mm; expected rad or deg"),
     "a column of another format": ("q1,q2,X,Y,Z,W,P,R", {"format": "abc"}, InputError,
-                                   "{}:1: of the columns X Y Z A B C, 'A' is missing"),
-    "no format": ("q1,q2,X,Y,Z,W,P,R", {}, UnknownName,
-                  "{}:1: the column 'W' is neither a coordinate nor one of x y z"),
+        "{}:1: the columns X Y Z W P R make a pose of 'wpr', 'fanuc': format= (--format) says of which"),
+    "no format": ("q1,q2,x,y,z,w,p,R [deg],time", {}, InputError,
+                  "{}:1: the columns X Y Z W P R make a pose of 'wpr', 'fanuc': format= (--format) says of which"),
+    "numbers, two of them alike": ("0.5,0,0,1", {}, InputError,
+                                   "{}:1: a first line that names the columns expected, it has numbers alone"),
+    "a column more": ("q1,q2,X,Y,Z,time", {}, UnknownName,
+                      "{}:1: the column 'time' is neither a coordinate nor one of x y z; ignore=['time'] passes"),
+    "a column missing": ("q1,q2,X,Y,Z,A,B", {"format": "abc"}, InputError,
+                         "{}:1: of the columns X Y Z A B C, 'C' is missing"),
     "nothing": ("q1,q2", {"format": "abc"}, InputError, "{}:1: no column of a measurement; expected X Y Z A B C"),
     "something else": ("q1,q2,u,v", {"format": "abc"}, UnknownName,
                        "{}:1: 'u' is neither a coordinate nor part of a measurement (X Y Z A B C)"),
