@@ -200,7 +200,7 @@ def _in_place(
         place = into.source.name
         text = into.source.text
     elif isinstance(into, bytes):
-        text = compressed.plain(into, place)
+        text = compressed.decompress(into, place)
     elif not isinstance(into, (str, os.PathLike)):
         raise InputError(f"into: expected a path, bytes or a Robot, got {safe_repr(into)}")
     else:

@@ -92,10 +92,8 @@ def _check_fit(options: MeasurementOptions, kinds: Sequence[str]) -> None:
             raise InputError(
                 f"--{name}: expected with {' or '.join(takers)} only, got {', '.join(dict.fromkeys(kinds))}"
             )
-    for sigma, option in (
-        (options.sigma_angle, "--sigma-angle"),
-        (options.sigma_length, "--sigma-length"),
-    ):
+    for option in ("sigma_angle", "sigma_length"):
+        sigma = getattr(options, option)
         if sigma is not None:
             positive(sigma, option)
     if options.sigma_angle is not None and not any(_angular(kind) for kind in kinds):

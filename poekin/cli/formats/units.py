@@ -19,7 +19,9 @@ Mm = Annotated[
 ]
 Deg = Annotated[
     bool | None,
-    Option("--deg/--rad", help="Angles in degrees, of joints and in --format."),
+    Option(
+        "--deg/--rad", help="Angles in degrees, of joints and in --format, but a controller's own."
+    ),
 ]
 BEYOND = 1e-9  # rad or m: what rounding may add to a limit
 

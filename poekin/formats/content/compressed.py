@@ -56,18 +56,7 @@ def read(path: FilePath) -> bytes:
     Raises: FileError.
     """
     archive, member = split(path)
-    return plain(xml.read_bytes(archive), Source(archive).place(), member)
-
-
-def plain(
-    content: bytes,
-    place: str,
-    member: str = "",
-) -> bytes:
-    """Content, decompressed where it is compressed. Otherwise as `decompress`."""
-    if is_compressed(content):
-        return decompress(content, place, member)
-    return content
+    return decompress(xml.read_bytes(archive), Source(archive).place(), member)
 
 
 def decompress(
@@ -75,11 +64,14 @@ def decompress(
     place: str,
     member: str = "",
 ) -> bytes:
-    """Bytes of a gzip file, or of one file in a zip archive: of `member`, else of its only URDF.
+    """Bytes of a gzip file, or of one file in a zip archive: of `member`, else of its only URDF; those
+    of anything else as they are.
 
     Raises: FileError for damaged content, more than 64 MiB, an archive in an archive, no URDF or
     several, or no file of the name, with those that there are. Place: what messages call it.
     """
+    if not is_compressed(content):
+        return content
     try:
         if content.startswith(_GZIP):
             with gzip.GzipFile(fileobj=io.BytesIO(content)) as stream:

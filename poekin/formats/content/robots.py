@@ -83,7 +83,7 @@ def from_content(
     an archive. Raises and warns: as `from_text`.
     """
     if isinstance(content, bytes):
-        content = compressed.plain(content, Source(name).place(), member)
+        content = compressed.decompress(content, Source(name).place(), member)
     if member:
         name = f"{name}/{member}"
     place = Source(name).place()

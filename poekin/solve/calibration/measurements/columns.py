@@ -7,7 +7,7 @@ from collections import Counter
 from typing import NamedTuple
 
 from ....errors import InputError, UnknownName, join_names, quote, suggest
-from ....formats.poses.layout import FORMATS
+from ....formats.poses.layout import OF_CONTROLLERS
 from ....formats.poses.layout import Layout as PoseLayout
 from ....formats.poses.layout import layout as pose_layout
 from ....formats.text.numbers import real
@@ -128,8 +128,7 @@ def _fault(
 def _formats(words: set[str]) -> list[str]:
     """Formats of poses whose three angles or parts of a vector are there, in whatever case."""
     there = {word.casefold() for word in words}
-    angles = [name for name in FORMATS if name not in ("quat", "7")]
-    layouts = [layout for layout in map(pose_layout, angles) if len(layout.columns) == 6]
+    layouts = [x for x in map(pose_layout, ("rpy", *OF_CONTROLLERS)) if len(x.columns) == 6]
     return [x.format for x in layouts if there.issuperset(map(str.casefold, x.columns))]
 
 
