@@ -111,6 +111,8 @@ def uncoupled_at_zero(chain: Chain) -> Chain:
         limits=own_limits(chain),
         offset=None,
         velocity_limits=None,
+        joint_limits=None,
+        joint_velocity_limits=None,
     )
     if not chain.offset.any():
         return bare

@@ -23,12 +23,13 @@ CALIBRATED = "calibrated"
 """Keys of the nominal and of the calibrated chain in the file of a calibration."""
 _NAMES = ("base", "tip", "joint_names", "q_names")
 _ARRAYS = ("screws", "home", "limits", "offset")
-_KEYS = (*_NAMES, *_ARRAYS, "coupling", "pitches", "velocity_limits")
+_LIMITS = ("velocity_limits", "joint_limits", "joint_velocity_limits")
+_KEYS = (*_NAMES, *_ARRAYS, "coupling", "pitches", *_LIMITS)
 
 
 def to_data(chain: Chain) -> dict[str, Any]:
-    """Table of a chain: frames, names, screws, home pose, limits, offset; coupling, pitches and velocity
-    limits where there are such.
+    """Table of a chain: frames, names, screws, home pose, limits, offset; coupling, pitches and
+    further limits where there are such.
     """
     data: dict[str, Any] = {
         "base": chain.base,
@@ -41,9 +42,8 @@ def to_data(chain: Chain) -> dict[str, Any]:
         data["coupling"] = chain.nontrivial_coupling.tolist()
     if chain.pitches.any():
         data["pitches"] = chain.pitches.tolist()
-    if np.isfinite(chain.velocity_limits).any():
-        data["velocity_limits"] = chain.velocity_limits.tolist()
-    return data
+    further = {key: getattr(chain, key) for key in _LIMITS}
+    return data | {key: a.tolist() for key, a in further.items() if np.isfinite(a).any()}
 
 
 def to_chain(keys: Keys) -> Chain:
@@ -55,11 +55,13 @@ def to_chain(keys: Keys) -> Chain:
     names = keys.texts("q_names")
     n = len(joints)
     m = len(names)
-    optional = {"coupling": (n, m), "pitches": (n,)}
-    given = (key for key in optional if key in keys.data)
-    arrays = {key: keys.array(key, optional[key]) for key in given}
-    if "velocity_limits" in keys.data:
-        arrays["velocity_limits"] = keys.array("velocity_limits", (m,), finite=False)
+    shapes = {"coupling": (n, m), "pitches": (n,)}
+    shapes |= zip(_LIMITS, ((m,), (n, 2), (n,)), strict=True)
+    arrays = {
+        key: keys.array(key, shape, finite=key not in _LIMITS)
+        for key, shape in shapes.items()
+        if key in keys.data
+    }
     try:
         return Chain.from_space(
             keys.array("screws", (n, 6)),

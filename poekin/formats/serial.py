@@ -14,11 +14,12 @@ import numpy as np
 
 from ..errors import InputError, join_names, quote
 from ..groups import se3
+from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.joint import Joint, Mimic
 from ..model.kinematics.arm import Arm, chain_of
 from ..model.provenance import warn
-from ..model.readings.coupled import OwnReadings, joint_limits, joint_speeds, own_readings
+from ..model.readings.coupled import own_limits, own_readings, own_speeds
 from ..model.readings.statements import make_statements
 from ..model.robot import Robot
 from .common.limits import UNBOUNDED, Interval
@@ -96,17 +97,13 @@ def serial_robot(chain: Arm) -> Robot:
     return robot
 
 
-def _coupled(chain: Chain, readings: OwnReadings) -> Robot:
-    """The robot of the joints' own values, with the coupling of its readings: these keep their
-    limits wherever joints can have some that leave them; a joint's speed is one within which they
-    keep theirs.
-    """
-    K = readings.K
+def _coupled(chain: Chain, K: Array) -> Robot:
+    """The robot of the joints' own values and limits, with the coupling x = K r + c of its readings."""
     own = chain.replace(
         coupling=np.eye(len(K)),
         q_names=chain.joint_names,
-        limits=joint_limits(K, readings.limits),
-        velocity_limits=joint_speeds(K, readings.velocity_limits),
+        limits=own_limits(chain) - chain.offset[:, None],
+        velocity_limits=own_speeds(chain),
     )
     return serial_robot(own).coupled(make_statements(K, chain.joint_names))
 

@@ -68,6 +68,11 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
         made exact, so that ω · v is the pitch.
     velocity_limits : (m,) array_like, optional
         Greatest |dq| of each coordinate, rad/s or m/s; infinite where it is not known.
+    joint_limits : (n, 2) array_like, optional
+        Lower and upper bound of each joint's own value x, where the coordinates' limits do not say
+        it all, as of coupled readings; infinite means no more than those say.
+    joint_velocity_limits : (n,) array_like, optional
+        Greatest |dx| of each joint, likewise.
 
     Raises
     ------
@@ -357,7 +362,7 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
         """Configurations drawn uniformly within the limits.
 
         A coordinate without limits is drawn from one turn, or 1 m either way, of the joint that it
-        moves fastest. Of coupled readings within theirs a joint may be beyond its own limits.
+        moves fastest. Joints are within their own limits, `joint_limits`, too.
 
         Parameters
         ----------

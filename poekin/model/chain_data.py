@@ -63,6 +63,8 @@ class ChainOptions(TypedDict, total=False):
     tip: str
     pitches: ArrayLike | None
     velocity_limits: ArrayLike | None
+    joint_limits: ArrayLike | None
+    joint_velocity_limits: ArrayLike | None
 
 
 @dataclass(slots=True, init=False, eq=False, repr=False)
@@ -87,6 +89,8 @@ class ChainData:
     tip: str
     pitches: Array
     velocity_limits: Array
+    joint_limits: Array
+    joint_velocity_limits: Array
     nontrivial_coupling: Array | None
     kinds: tuple[ScrewKind, ...]
     local: LocalForm
@@ -110,6 +114,8 @@ class ChainData:
         tip: str = "tool",
         pitches: ArrayLike | None = None,
         velocity_limits: ArrayLike | None = None,
+        joint_limits: ArrayLike | None = None,
+        joint_velocity_limits: ArrayLike | None = None,
     ) -> None:
         choice(frame, get_args(ScrewFrame), "frame", _ENTRANCES)
         given_names = ordered_names(joint_names, "joint_names")
@@ -144,6 +150,10 @@ class ChainData:
             tip=frame_name(tip, "tip"),
             pitches=read_only(h),
             velocity_limits=read_only(velocity_bounds(velocity_limits, names)),
+            joint_limits=read_only(bounds(joint_limits, joints, "joint_limits")),
+            joint_velocity_limits=read_only(
+                velocity_bounds(joint_velocity_limits, joints, "joint_velocity_limits")
+            ),
             nontrivial_coupling=None if C is None else read_only(C),
             kinds=tuple(map(_kind, form.rotates, form.slides)),
             local=form,
@@ -240,6 +250,9 @@ class ChainData:
     def _data(self) -> dict[str, Any]:
         data: dict[str, Any] = {name: getattr(self, name) for name in _DATA}
         data["coupling"] = self.nontrivial_coupling
+        for name in _OF_JOINTS:
+            if not np.isfinite(data[name]).any():
+                data[name] = None
         return data
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -279,12 +292,14 @@ class ChainData:
 AnyChain = TypeVar("AnyChain", bound=ChainData)
 """The class of the chain that is given: a function of a `Chain` that makes a new one makes a Chain."""
 
+_OF_JOINTS = ("joint_limits", "joint_velocity_limits")
 _DATA = (
     *("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip", "pitches"),
     "velocity_limits",
+    *_OF_JOINTS,
 )
 # by the number of joints
-_SIZED = ("joint_names", "q_names", "limits", "coupling", "offset", "velocity_limits")
+_SIZED = ("joint_names", "q_names", "limits", "coupling", "offset", "velocity_limits", *_OF_JOINTS)
 _KINDS: tuple[ScrewKind, ...] = get_args(ScrewKind)
 
 

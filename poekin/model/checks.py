@@ -122,39 +122,48 @@ def distinct_names(
     return given
 
 
-def bounds(limits: ArrayLike | None, names: tuple[str, ...]) -> Array:
-    """Lower and upper bound of each coordinate (m, 2), infinite where there is none."""
+def bounds(limits: ArrayLike | None, names: tuple[str, ...], what: str = "limits") -> Array:
+    """Lower and upper bound of each name (m, 2), infinite where there is none."""
     if limits is None:
         return np.tile([-np.inf, np.inf], (len(names), 1))
-    L = numbers(limits, "limits").copy() + 0.0
+    L = numbers(limits, what).copy() + 0.0
     if L.shape != (len(names), 2):
         raise ShapeError(
-            f"limits: expected shape ({len(names)}, 2), lower and upper of each coordinate, got {L.shape}"
+            f"{what}: expected shape ({len(names)}, 2), lower and upper of each {_each(what)}, got "
+            f"{L.shape}"
         )
     for name, (lower, upper) in zip(names, L, strict=True):
         if not lower <= upper or lower == np.inf or upper == -np.inf:
             raise InputError(
-                f"limits: expected lower <= upper for {quote(name)}, got {lower} and {upper}"
+                f"{what}: expected lower <= upper for {quote(name)}, got {lower} and {upper}"
             )
     return L
 
 
-def velocity_bounds(limits: ArrayLike | None, names: tuple[str, ...]) -> Array:
-    """Greatest rate of each coordinate (m,), infinite where it is not known."""
+def velocity_bounds(
+    limits: ArrayLike | None,
+    names: tuple[str, ...],
+    what: str = "velocity_limits",
+) -> Array:
+    """Greatest rate of each name (m,), infinite where it is not known."""
     if limits is None:
         return np.full(len(names), np.inf)
-    v = numbers(limits, "velocity_limits").copy()
+    v = numbers(limits, what).copy()
     if v.shape != (len(names),):
         raise ShapeError(
-            f"velocity_limits: expected shape ({len(names)},), one of each coordinate, got {v.shape}"
+            f"{what}: expected shape ({len(names)},), one of each {_each(what)}, got {v.shape}"
         )
     for name, bound in zip(names, v.tolist(), strict=True):
         if not bound > 0:
             raise InputError(
-                f"velocity_limits: expected a positive number for {quote(name)}, infinite where it is"
+                f"{what}: expected a positive number for {quote(name)}, infinite where it is"
                 f" not known, got {bound}"
             )
     return v
+
+
+def _each(what: str) -> str:
+    return "joint" if what.startswith("joint") else "coordinate"
 
 
 def coupling_matrix(values: ArrayLike | None, n: int) -> Array | None:

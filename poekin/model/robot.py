@@ -220,9 +220,10 @@ class Robot:
         if tip is None:
             tip = only_leaf(self._parts, self.leaves)
         screws, home, options = chain_between(self._parts, base, tip)
-        if self._parts.readings is not None:
-            options = with_readings(options, self._parts.readings, self.q_names)
-        return Chain.from_space(screws, home, **options)
+        chain = Chain.from_space(screws, home, **options)
+        if self._parts.readings is None:
+            return chain
+        return with_readings(chain, self._parts.readings, self.q_names)
 
     def coupled(self, coupling: Statements) -> Robot:
         """Robot of the same links and joints whose coordinates are readings that joints follow.

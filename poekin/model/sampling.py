@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..errors import InputError
 from ..groups.arrays import Array
 from .chain_data import ChainData
+from .readings.coupled import within_own_limits
+
+DRAWS = 10_000
+"""Draws of a configuration after which there is hardly any."""
 
 
 def random(
@@ -13,11 +18,22 @@ def random(
     rng: np.random.Generator | int,
     size: int | tuple[int, ...] = (),
 ) -> Array:
-    """Configurations (*size, m) drawn uniformly from `sampling_range`."""
+    """Configurations (*size, m) drawn uniformly from what of `sampling_range` keeps the joints
+    within their own limits. Raises: InputError where next to nothing does.
+    """
     rng = np.random.default_rng(rng)
     size = (size,) if isinstance(size, (int, np.integer)) else tuple(size)
     low, high = sampling_range(chain)
-    return low + (high - low) * rng.random((*size, chain.dof))
+    q = low + (high - low) * rng.random((*size, chain.dof))
+    for _ in range(DRAWS):
+        beyond = ~within_own_limits(chain, q)
+        if not beyond.any():
+            return q
+        q[beyond] = low + (high - low) * rng.random((np.count_nonzero(beyond), chain.dof))
+    raise InputError(
+        f"random: of {DRAWS} draws within the coordinates' limits, none keeps the joints within "
+        "their own: joint_limits"
+    )
 
 
 def sampling_range(chain: ChainData) -> tuple[Array, Array]:

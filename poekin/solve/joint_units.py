@@ -1,8 +1,9 @@
 """Coordinates in the units of the joints that they move; no solver depends on the unit of q.
 
 Coordinates may be degrees, or angles of a motor before a gear: x = C q + c. A solver works with u =
-s q instead, where s_k is the entry of largest size in column k of C: the fastest of the joints that
-coordinate k moves goes as far as u_k.
+S q instead. Of coupled readings S is C: the joints' own limits are those of u. Else S is diagonal, s_k
+the entry of largest size in column k of C: the fastest of the joints that coordinate k moves goes as
+far as u_k.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.kinematics.compiled import CompiledChain
+from ..model.readings.coupled import own_limits, reading_limits
 from ..model.sampling import dominant_ratio
 from .chain_cache import ChainCache
 
@@ -27,8 +29,8 @@ ratios.
 
 
 class JointUnits(NamedTuple):
-    """An arm in the units of its joints: `fast`, a function of u = s q, and the scale s (m,), None
-    where all are 1.
+    """An arm in the units of its joints: `fast`, a function of u = S q, and S (m, m), None where it
+    is the identity.
     """
 
     fast: CompiledChain
@@ -36,33 +38,74 @@ class JointUnits(NamedTuple):
 
     def of(self, q: Array) -> Array:
         """Joint units u (..., m) of coordinates q."""
-        return q if self.scale is None else self.scale * q
+        return q if self.scale is None else np.einsum("jk,...k->...j", self.scale, q)
+
+    def of_locked(self, values: Array) -> Array:
+        """Joint units (m,) of what is locked; NaN for the others."""
+        return values if self.scale is None else np.diag(self.scale) * values
+
+    def of_steps(self, most: Array) -> Array:
+        """Largest steps (m,) of u, within which no coordinate makes a larger one than these."""
+        if self.scale is None:
+            return most
+        back = np.abs(np.linalg.inv(self.scale))
+        parts = np.count_nonzero(back, axis=1)
+        with np.errstate(divide="ignore"):
+            return (most[:, None] / (parts[:, None] * back)).min(axis=0)
 
     def coordinates(self, u: Array, limits: Array) -> Array:
         """Coordinates q (..., m) of joint units u, within `limits` (m, 2) where u is but for
         rounding.
         """
-        return u if self.scale is None else np.clip(u / self.scale, *limits.T)
+        if self.scale is None:
+            return u
+        return np.clip(np.linalg.solve(self.scale, u[..., None])[..., 0], *limits.T)
 
 
 _UNITS: ChainCache[JointUnits] = ChainCache()
 
 
-def joint_units(fast: CompiledChain) -> JointUnits:
-    """Arm in the units of its joints; made once and kept."""
+def joint_units(fast: CompiledChain, locked: tuple[str, ...] = ()) -> JointUnits:
+    """Arm in the units of its joints, of which each locked coordinate has its own; made once and
+    kept.
+    """
     if fast.chain.nontrivial_coupling is None:
         return JointUnits(fast, None)
-    return _UNITS.get(fast) or _UNITS.keep(fast, _joint_units(fast))
+    return _UNITS.get(fast, locked) or _UNITS.keep(fast, _joint_units(fast, locked), locked)
 
 
-def _joint_units(fast: CompiledChain) -> JointUnits:
+def _joint_units(fast: CompiledChain, locked: tuple[str, ...]) -> JointUnits:
     chain = fast.chain
+    C = chain.coupling
+    if _is_of_joints(chain, locked):
+        limits = own_limits(chain) - chain.offset[:, None]
+        own = chain.replace(coupling=None, limits=limits, joint_limits=None)
+        return JointUnits(own.compile(), C)
     scale = np.array([dominant_ratio(chain, k) for k in range(chain.dof)])
     if (scale == 1.0).all():
         return JointUnits(fast, None)
     limits = np.sort(chain.limits * scale[:, None], axis=1)
-    scaled = chain.replace(coupling=chain.coupling / scale, limits=limits)
-    return JointUnits(scaled.compile(), scale)
+    scaled = chain.replace(coupling=C / scale, limits=limits)
+    return JointUnits(scaled.compile(), np.diag(scale))
+
+
+def _is_of_joints(chain: Chain, locked: tuple[str, ...]) -> bool:
+    """Whether the joints' values, some of which are sums of coordinates, are as good coordinates:
+    their limits imply those of the given ones, and each locked coordinate is a joint's own.
+    """
+    C = chain.coupling
+    if len(C) != chain.dof or (np.count_nonzero(C, axis=1) <= 1).all():
+        return False
+    if np.linalg.matrix_rank(C) < len(C):
+        return False
+    shared = C - np.diag(np.diag(C))
+    at = [k for k, name in enumerate(chain.q_names) if name in locked]
+    if shared[at].any() or shared[:, at].any():
+        return False
+    lower, upper = reading_limits(C, own_limits(chain) - chain.offset[:, None]).T
+    low, high = chain.limits.T
+    rounding = 1e-9 * (1 + np.abs(np.where(np.isfinite(chain.limits), chain.limits, 0.0))).max()
+    return bool((lower >= low - rounding).all() and (upper <= high + rounding).all())
 
 
 def bounds(chain: Chain, limits: bool) -> Array:

@@ -97,7 +97,8 @@ def test_a_coupled_chain_s_table_is_coupled(convention):
 
 
 def test_a_coupled_chain_is_a_robot_with_coupled_readings():
-    chain = ARM.replace(offset=[0.1, -0.2, 0.3, 0, 0, 0])
+    offset = np.array([0.1, -0.2, 0.3, 0, 0, 0])
+    chain = ARM.replace(offset=offset, joint_limits=ARM.joint_limits + offset[:, None])
     robot = serial_robot(chain)
     assert robot.coupling == TABLE.coupling
     np.testing.assert_allclose(robot.chain().fk(Q), chain.fk(Q), rtol=0, atol=1e-13)

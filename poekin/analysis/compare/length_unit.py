@@ -65,6 +65,8 @@ def rescaled(chain: Chain, factor: float) -> Chain:
         pitches=chain.pitches * factor,
         limits=chain.limits * coordinates[:, None],
         velocity_limits=chain.velocity_limits * coordinates,
+        joint_limits=chain.joint_limits * joints[:, None],
+        joint_velocity_limits=chain.joint_velocity_limits * joints,
         coupling=coupling,
         offset=chain.offset * joints,
     )

@@ -361,7 +361,7 @@ def _with_coupling(table: Table, chain: Chain) -> Table:
         base=table.base,
         tool=table.tool,
         name=table.name,
-        coupling=make_statements(readings.K, table.names),
+        coupling=make_statements(readings, table.names),
     )
 
 

@@ -124,7 +124,7 @@ def _readings(chain: Chain) -> list[str]:
     readings = own_readings(chain)
     if readings is None:
         return []
-    statements = make_statements(readings.K, chain.joint_names)
+    statements = make_statements(readings, chain.joint_names)
     return [
         "",
         "Joints that follow sums of coordinates:",

@@ -180,7 +180,7 @@ def _coupling_to_drop(nominal: Chain, chain: Chain) -> tuple[str, ...]:
     readings = own_readings(chain)
     if readings is None or own_readings(nominal) is not None:
         return ()
-    return make_statements(readings.K, chain.joint_names)
+    return make_statements(readings, chain.joint_names)
 
 
 def _tool(robot: Robot, last: Joint, origin: Array) -> Joint:

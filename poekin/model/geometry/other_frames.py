@@ -47,5 +47,6 @@ def rezeroed(chain: AnyChain, q0: Any) -> AnyChain:
         screws=A,
         home=P @ chain.home,
         limits=chain.limits - q0[:, None],
+        joint_limits=chain.joint_limits - shifts[:, None],
         pitches=chain.pitches,
     )

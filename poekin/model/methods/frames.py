@@ -147,9 +147,10 @@ class ChainFrames(ChainData):
         -------
         chain : Chain
             Chain of the same arm with coordinates of the same names. `fk`, Jacobians, `pk.ik` and
-            `pk.calibrate` take or give readings. Limits are those that the joints' limits leave to
-            the readings one by one: of readings within them a joint may still be beyond its own.
-            Velocity limits are such that it never is: a joint's is shared by what it follows.
+            `pk.calibrate` take or give readings. `limits` and `velocity_limits` are what the joints'
+            own leave to the readings one by one; the joints' own are `joint_limits` and
+            `joint_velocity_limits`, which `random`, `pk.ik`, `pk.ik_all`, `pk.follow` and
+            `pk.motion.time_optimal` keep to, too.
 
         Raises
         ------

@@ -16,6 +16,7 @@ from ...errors import InputError, safe_repr
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
+from ...model.readings.coupled import within_own_limits
 from ..chain_cache import ChainCache
 from ..joint_units import bounds, joint_units
 from .joint_domain import JointDomain, make_joint_domain
@@ -78,7 +79,7 @@ class Problem:
 
         self.settings = settings
         self.given = fast.chain
-        self.units = joint_units(fast)
+        self.units = joint_units(fast, tuple(name for name, _ in settings.lock or ()))
         self.fast = self.units.fast
         self.domain: JointDomain = make_joint_domain(self.units, settings.lock, settings.limits)
         self.task: Task = _task(settings, self.fast.chain, self.domain)
@@ -94,6 +95,7 @@ class Problem:
         )
         self._solve = ik_kernels.solve_many
         self._error_parts = ik_kernels.error_parts
+        self._joint_limits = settings.limits and np.isfinite(self.given.joint_limits).any()
         self._address = self.fast.hybrid_address
         self._tolerances = np.array([settings.tol_position, settings.tol_rotation])
         self._rows = _rows(settings.restarts, settings.iterations)
@@ -116,11 +118,14 @@ class Problem:
 
     def pose_errors(self, targets: Array, q: Array) -> tuple[Array, np.ndarray]:
         """Errors of q (N, 2) in m and rad by the kernels of any chain; whether the tolerances
-        hold (N,).
+        hold (N,), and the joints' own limits.
         """
         errors = pose_errors(self.given, self.task, q, targets)
         within = errors <= self._tolerances
-        return errors, within[:, 0] & within[:, 1]
+        success = within[:, 0] & within[:, 1]
+        if self._joint_limits:
+            success &= within_own_limits(self.given, q)
+        return errors, success
 
     def error(self, T: Array, target: Array, J: Array) -> Array:
         """Error (6,), rotation first, between two poses; J loses what the task leaves free."""

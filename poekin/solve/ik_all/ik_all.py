@@ -15,6 +15,7 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, compiled
 from ...model.kinematics.compiled import CompiledChain
+from ...model.sampling import joint_ratios
 from ..ik.task import pose_errors, targets
 from ..joint_units import bounds, joint_units, periods
 from .all_solutions import AllSolutions, MethodUsed, in_words, missing_probability
@@ -130,10 +131,9 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     found = _found(fast, rows[finite], solver, rule, limits)
     every = _of_every_target(found, finite, fast.dof)
     places = _places(fast.chain, every, limits, all_revolutions)
-    signs = np.sign(units.of(np.ones(fast.dof)))
-    order = _order(places.q * signs, places.owner)
-    q = units.coordinates(places.q[order], bounds(given, limits))
-    places = _Places(q, places.owner[order], places.number[order], places.within)
+    q = units.coordinates(places.q, bounds(given, limits))
+    order = _order(q * joint_ratios(given), places.owner)
+    places = _Places(q[order], places.owner[order], places.number[order], places.within)
     closed = None if solver is None else solver.said()
     complete = [
         in_words(f, int(inside), closed) if known else _BAD_TARGET

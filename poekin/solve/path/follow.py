@@ -139,7 +139,7 @@ def follow(  # noqa: PLR0913 - options by keyword
     given = fast.chain
     most = per_coordinate(max_step, given, "max_step")
     if isinstance(max_step, Mapping) or np.ndim(max_step):
-        most = np.abs(problem.units.of(most))
+        most = problem.units.of_steps(most)
     when, limit_v, limit_a = _timing(times, speed, acceleration, given, len(path))
     start = None
     if q0 is not None:

@@ -174,9 +174,9 @@ class PathResult(Result):
         that the task asks. In rad and m of the joints, lengths ÷ reach.
         Computed when it is first asked for, which takes longer than to follow the path.
         """
-        units = joint_units(self.chain.compile())
+        units = joint_units(self.chain.compile(), tuple(self.lock))
         locked = self._locked
-        rank = self.task.generic_rank(units.fast.chain, units.of(locked))
+        rank = self.task.generic_rank(units.fast.chain, units.of_locked(locked))
         if not rank:
             return np.ones(len(self.q))
         T, J = units.fast.chain.fk_jacobian(units.of(self.q), "hybrid")

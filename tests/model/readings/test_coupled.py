@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError
 from poekin.model.readings.coupled import (
-    joint_limits,
-    joint_speeds,
+    own_limits,
     own_readings,
+    own_speeds,
     reading_limits,
     reading_speeds,
     sum_limits,
@@ -92,49 +92,76 @@ def test_limits_that_no_other_reading_changes_stay_and_sums_of_infinite_ones_are
 
 
 @given(seed=st.integers(0, 999))
-def test_limits_of_joints_are_found_again_by_those_of_their_readings(seed):
+def test_limits_of_joints_are_kept_to_the_last_digit(seed):
     rng = np.random.default_rng(seed)
-    K = np.eye(4) + np.tril(rng.integers(-2, 3, (4, 4)), -1)
-    limits = np.sort(rng.normal(size=(4, 2)), axis=1)
-    limits[3] = -np.inf, np.inf  # which no other reading takes up
-    box = reading_limits(K, limits)
-    found = joint_limits(K, box)
-    # |K^-1| of whole numbers up to 27, times the limits
-    np.testing.assert_allclose(reading_limits(K, found), box, rtol=0, atol=1e-11)
+    limits = np.sort(rng.normal(size=(6, 2)), axis=1)
+    limits[rng.integers(6)] = -np.inf, np.inf
+    speeds = rng.uniform(0.5, 3, 6)
+    arm = ARM.replace(limits=limits, velocity_limits=speeds, offset=rng.normal(size=6))
+    for said in ("J3 = J2 + J3", ["J5 = 1/2 J5 + 1/2 J6", "J6 = 1/2 J5 - 1/2 J6"]):
+        chain = arm.coupled(said)
+        np.testing.assert_array_equal(own_limits(chain), own_limits(arm))
+        np.testing.assert_array_equal(own_speeds(chain), speeds)
+        moved = chain.rezeroed(np.ones(6))
+        x = chain.coupling @ np.ones(6)
+        np.testing.assert_allclose(own_limits(moved), own_limits(arm) - x[:, None], atol=1e-15)
 
 
-def test_limits_of_readings_that_no_limits_of_joints_leave_are_those_left_to_each_joint():
+def test_limits_of_readings_alone_leave_each_joint_what_their_sum_does():
     K = np.array([[1.0, 0.0], [1.0, 1.0]])
-    np.testing.assert_allclose(joint_limits(K, np.array([[-2.0, 1], [-4, 3]])), [[-2, 1], [-3, 1]])
-    narrow = np.array([[-2.0, 1.0], [-1.0, 1.0]])  # less than joint 1 takes up
-    assert joint_limits(K, narrow).tolist() == sum_limits(K, narrow).tolist() == [[-2, 1], [-3, 2]]
+    chain = pk.Chain.from_space(ARM.screws[:2], ARM.home, coupling=K, limits=[[-2, 1], [-4, 3]])
+    assert own_limits(chain).tolist() == [[-2, 1], [-6, 4]]
+    assert np.isinf(chain.joint_limits).all()
 
 
 @given(seed=st.integers(0, 99))
-def test_readings_within_their_velocity_limits_keep_each_joint_within_its_own(seed):
+def test_velocity_limits_of_readings_are_the_largest_that_the_joints_own_leave(seed):
     rng = np.random.default_rng(seed)
     K = np.eye(6) + np.tril(rng.integers(-2, 3, (6, 6)), -1)
     speeds = rng.uniform(0.5, 3, 6)
-    speeds[rng.integers(6)] = np.inf
     found = reading_speeds(K, speeds)
-    rates = np.array(np.meshgrid(*(found[:, None] * [-1, 1]).clip(-1e3, 1e3))).reshape(6, -1)
-    finite = np.isfinite(speeds)
-    assert (np.abs(K @ rates).max(axis=1)[finite] <= speeds[finite] * (1 + 1e-12)).all()
+    corners = np.array(np.meshgrid(*(speeds[:, None] * [-1, 1]))).reshape(6, -1)
+    reached = np.abs(np.linalg.solve(K, corners)).max(axis=1)
+    np.testing.assert_allclose(found, reached, rtol=1e-12)
     # a joint that nothing else follows, and that follows none, keeps its own
     alone = (np.count_nonzero(K, axis=0) == 1) & (np.count_nonzero(K, axis=1) == 1)
     np.testing.assert_array_equal(found[alone], speeds[alone])
-    assert (reading_speeds(K, joint_speeds(K, found)) <= found * (1 + 1e-12)).all()
 
 
 def test_velocity_limits_of_chains_and_robots_are_those_of_their_readings():
     chain = ARM.replace(velocity_limits=[1.0, 2.0, 3.0, np.inf, 5.0, 6.0])
     coupled = chain.coupled("J3 = J2 + J3")
-    np.testing.assert_array_equal(coupled.velocity_limits, [1.0, 1.5, 1.5, np.inf, 5.0, 6.0])
+    np.testing.assert_array_equal(coupled.velocity_limits, [1.0, 2.0, 5.0, np.inf, 5.0, 6.0])
+    np.testing.assert_array_equal(own_speeds(coupled), chain.velocity_limits)
     fast = [replace(joint, velocity=2.0) for joint in ROBOT.joints if joint.kind != "fixed"]
     fast += [joint for joint in ROBOT.joints if joint.kind == "fixed"]
     robot = pk.Robot("fast", ROBOT.links, fast, coupling="J3 = J2 + J3")
-    expected = [2.0, 1.0, 1.0, 2.0, 2.0, 2.0]
+    expected = [2.0, 2.0, 4.0, 2.0, 2.0, 2.0]
     np.testing.assert_array_equal(robot.chain().velocity_limits, expected)
+    np.testing.assert_array_equal(own_speeds(robot.chain()), np.full(6, 2.0))
+
+
+def test_random_configurations_keep_the_joints_within_their_own_limits():
+    chain = ARM.coupled("J3 = J2 + J3")
+    q = chain.random(0, (40, 50))
+    x = q @ chain.coupling.T
+    lower, upper = ARM.limits.T
+    assert ((x >= lower - 1e-12) & (x <= upper + 1e-12)).all()
+    # uniform: as far as the joints' own limits, and the box of the readings is not filled
+    np.testing.assert_allclose(x[..., 2].min(), lower[2], atol=0.05)
+    np.testing.assert_allclose(x[..., 2].max(), upper[2], atol=0.05)
+    part = ROBOT.coupled("J3 = J2 + J3").chain(base="link2")
+    x3 = (part.random(0, 2000) @ part.coupling.T)[:, 0]
+    assert (x3 >= lower[2] - 1e-12).all()
+    assert (x3 <= upper[2] + 1e-12).all()
+    assert chain.random(0).shape == (6,)
+    np.testing.assert_array_equal(ARM.random(3, 5), ARM.random(3, 5))
+
+
+def test_a_chain_that_no_configuration_keeps_within_its_joints_limits_draws_none():
+    far = np.tile([50.0, 51.0], (6, 1))
+    with pytest.raises(InputError, match="none keeps the joints within their own: joint_limits"):
+        ARM.replace(joint_limits=far).random(0)
 
 
 def test_a_chain_of_coupled_readings_may_be_coupled_again():
@@ -196,15 +223,10 @@ def test_a_robot_that_is_coupled_is_not_coupled_again():
 
 def test_own_readings_are_told_from_other_coordinates():
     coupled = ARM.coupled("J3 = J2 + J3")
-    readings = own_readings(coupled)
-    assert readings is not None
-    np.testing.assert_array_equal(readings.K, coupled.coupling)
-    np.testing.assert_array_equal(readings.limits, coupled.limits)
+    np.testing.assert_array_equal(own_readings(coupled), coupled.coupling)
     assert own_readings(ARM) is None
     assert own_readings(ARM.replace(coupling=2 * np.eye(6))) is None
     assert own_readings(coupled.replace(q_names=list("abcdef"))) is None
     names = coupled.q_names[::-1]
     turned = coupled.replace(coupling=coupled.coupling[:, ::-1], q_names=names, limits=None)
-    again = own_readings(turned)
-    assert again is not None
-    np.testing.assert_array_equal(again.K, coupled.coupling)
+    np.testing.assert_array_equal(own_readings(turned), coupled.coupling)

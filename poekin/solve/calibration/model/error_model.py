@@ -138,7 +138,8 @@ class ErrorModel:
         if errors.offsets.any():
             arm = arm.rezeroed(errors.offsets)
         C = self.nominal.coupling * (1.0 + errors.gains)
-        return arm.replace(coupling=C, limits=self.nominal.limits)
+        limits = self.nominal.limits
+        return arm.replace(coupling=C, limits=limits, joint_limits=self.nominal.joint_limits)
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""

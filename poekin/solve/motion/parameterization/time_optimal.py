@@ -15,7 +15,7 @@ from ....model.kinematics.arm import Arm, chain_of
 from ...per_coordinate import per_coordinate
 from ..trajectory.hermite import peaks
 from ..trajectory.trajectory import Trajectory
-from .joint_spline import JointSpline, distinct_points, make_joint_spline
+from .joint_spline import JointSpline, PathDerivatives, distinct_points, make_joint_spline
 from .reachability import fastest, times_of
 
 STEPS = 1000
@@ -38,8 +38,12 @@ NANOSECOND = 1e-9
 
 
 class _Limits(NamedTuple):
-    """Limits of speed and acceleration (m,), per s and s²."""
+    """Limits of speed and acceleration of values V q, per s and s²: V (k, m), the others (k,).
 
+    The values are the coordinates, and the joints that follow several of them.
+    """
+
+    V: Array
     speed: Array
     acceleration: Array
 
@@ -73,10 +77,12 @@ def time_optimal(
         Configurations, rad or m, N >= 2, as `follow` finds them; points that repeat the one before
         count once.
     acceleration : float, (m,) array_like or dict
-        Largest |ddq| of each coordinate, per s²; no robot file states it, so it has no default.
+        Largest |ddq| of each coordinate, per s²; no robot file states it, so it has no default. Of
+        coupled readings it is that of the readings, as a controller takes it.
     speed : float, (m,) array_like or dict, optional
         Largest |dq| of each coordinate, per s, infinite where there is no limit; by default
-        `Chain.velocity_limits`. A dict may name only some coordinates.
+        `Chain.velocity_limits`. A dict may name only some coordinates. A joint that follows several
+        is no faster than its own limit, `Chain.joint_velocity_limits`, unless all of these are given.
 
     Returns
     -------
@@ -130,8 +136,8 @@ def time_optimal(
         times=motion.times,
         q=motion.q,
         dq=motion.dq,
-        speed=limits.speed,
-        acceleration=limits.acceleration,
+        speed=limits.speed[: given.dof],
+        acceleration=limits.acceleration[: given.dof],
         waypoints=np.searchsorted(motion.s, spline.knots[knot]),
     )
 
@@ -150,18 +156,25 @@ def _points(q: Any, chain: Chain) -> Array:
 
 
 def _limits(speed: Any, acceleration: Any, chain: Chain) -> _Limits:
-    limits = _Limits(
-        _speed_limits(speed, chain),
-        per_coordinate(acceleration, chain, "acceleration"),
-    )
-    finite = np.where(np.isinf(limits.speed), 1.0, limits.speed)
-    for what, values in (("speed", finite), ("acceleration", limits.acceleration)):
+    speeds = _speed_limits(speed, chain)
+    accelerations = per_coordinate(acceleration, chain, "acceleration")
+    finite = np.where(np.isinf(speeds), 1.0, speeds)
+    for what, values in (("speed", finite), ("acceleration", accelerations)):
         if not ((values >= 1 / LARGEST) & (values <= LARGEST)).all():
             raise InputError(
                 f"{what}: expected numbers from {1 / LARGEST:g} to {LARGEST:g}, "
                 f"got {safe_repr(values.tolist())}"
             )
-    return limits
+    known = np.full(chain.dof, speed is None)
+    if isinstance(speed, Mapping):
+        known = np.array([name not in speed for name in chain.q_names])
+    C = chain.coupling
+    counts = np.isfinite(chain.joint_velocity_limits) & (C[:, known] != 0).any(axis=1)
+    return _Limits(
+        np.vstack([np.eye(chain.dof), C[counts]]),
+        np.append(speeds, chain.joint_velocity_limits[counts]),
+        np.append(accelerations, np.full(np.count_nonzero(counts), np.inf)),
+    )
 
 
 def _speed_limits(speed: Any, chain: Chain) -> Array:
@@ -198,7 +211,8 @@ def _fastest(spline: JointSpline, limits: _Limits) -> tuple[Array, Array]:
     s = _grid(spline.knots)
     for left in reversed(range(ROUNDS)):
         path = spline.at(s)
-        x = fastest(s, path, *limits)
+        values = PathDerivatives(*(part @ limits.V.T for part in path))
+        x = fastest(s, values, limits.speed, limits.acceleration)
         motion = _Motion(s, times_of(s, x), path.q, path.first * np.sqrt(x)[:, None])
         worst = np.flatnonzero(_excess(motion, limits) > EXCESS)
         if not len(worst) or not left:
@@ -241,7 +255,8 @@ def _timed(
 
 def _excess(motion: _Motion, limits: _Limits) -> Array:
     """Share (N - 1,) by which each step exceeds a limit: of the acceleration, or speed squared."""
-    speed, acceleration = peaks(motion.times, motion.q, motion.dq)
+    V = limits.V
+    speed, acceleration = peaks(motion.times, motion.q @ V.T, motion.dq @ V.T)
     by_speed = (speed / limits.speed).max(axis=1)
     by_acceleration = (acceleration / limits.acceleration).max(axis=1)
     return np.maximum(by_speed**2, by_acceleration)

@@ -169,6 +169,53 @@ def test_the_arm_s_own_limits_of_speed_count_where_none_are_given():
     assert compiled.duration == own.duration
 
 
+SAID = {
+    "Fanuc": "J3 = J2 + J3",
+    "differential wrist": ["J5 = 1/2 J5 + 1/2 J6", "J6 = 1/2 J5 - 1/2 J6"],
+}
+
+
+@pytest.mark.parametrize("path", ["knots", "polyline", "circle"])
+@pytest.mark.parametrize("said", SAID)
+def test_a_joint_of_several_readings_is_as_fast_as_its_own_limit_and_no_faster(arm, said, path):
+    own = arm.replace(velocity_limits=SPEED)
+    chain = own.coupled(SAID[said])
+    q = PATHS[path]
+    found = motion.time_optimal(chain, q, acceleration=ACCELERATION)
+    cubic = CubicHermiteSpline(found.times, found.q, found.dq)
+    fine = cubic(np.linspace(0, found.duration, 20_001), 1)
+    assert (np.abs(fine @ chain.coupling.T) <= SPEED * (1 + 1e-9)).all()
+    assert (np.abs(fine) <= chain.velocity_limits * (1 + 1e-9)).all()
+    assert (found.largest_acceleration <= ACCELERATION).all()
+    values = np.hstack([q, q @ chain.coupling.T])
+    knots = np.append(0, np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1)))
+    s = np.unique(np.append(knots, np.linspace(0, knots[-1], 2001)))
+    best = shortest_time(
+        CubicSpline(knots, values),
+        np.append(chain.velocity_limits, SPEED),
+        np.append(ACCELERATION, np.full(6, 1e9)),
+        s,
+    )
+    assert 0.99 * best <= found.duration <= 1.02 * best
+
+
+def test_a_joint_s_own_limit_of_speed_counts_unless_all_its_readings_are_given(arm):
+    chain = arm.replace(velocity_limits=np.ones(6)).coupled("J3 = J2 + J3")
+    names = chain.q_names
+    q = np.zeros((2, 6))
+    q[1, 1:3] = 10.0  # joint 3 turns by 20 rad
+
+    def duration(speed):
+        return motion.time_optimal(chain, q, acceleration=1e4, speed=speed).duration
+
+    assert duration(None) == pytest.approx(20.0, rel=3e-3)  # two steps of 1000
+    assert duration({names[1]: 1.0}) == pytest.approx(20.0, rel=3e-3)  # two steps of 1000
+    assert duration({names[1]: 1.0, names[2]: 1.0}) == pytest.approx(
+        10.0, rel=3e-3
+    )  # two steps of 1000
+    assert duration(1.0) == pytest.approx(10.0, rel=3e-3)  # two steps of 1000
+
+
 def test_a_speed_of_infinity_is_no_limit(arm):
     q = np.array([np.zeros(6), np.ones(6)])
     found = motion.time_optimal(arm, q, speed=np.inf, acceleration=4.0)
