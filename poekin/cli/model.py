@@ -45,7 +45,8 @@ Coupling = Annotated[
     Option(
         "--coupling",
         metavar="'J3 = J2 + J3'",
-        help="A joint of each FILE as a sum of readings, which Q then are; may be repeated.",
+        help="A joint of each FILE that does not say so itself, as a sum of readings, which Q then "
+        "are; may be repeated.",
     ),
 ]
 NamedArm = Annotated[
@@ -74,14 +75,30 @@ _current: ContextVar[_Run | None] = ContextVar("run of a command", default=None)
 
 
 def model(file: str) -> Robot:
-    """The robot that a FILE argument names, its readings coupled as --coupling says. Raises: what
-    `load`, `xacro` and `Robot.coupled` raise.
+    """The robot that a FILE argument names, its readings coupled as --coupling says. Raises: as
+    `models`.
     """
+    return models(file)[0]
+
+
+def models(*files: str) -> list[Robot]:
+    """Robots of FILE arguments; --coupling is for those whose readings are not coupled yet.
+
+    Raises: what `load`, `xacro` and `Robot.coupled` raise; InputError where all are coupled.
+    """
+    robots = [_loaded(file) for file in files]
     statements = _run().coupling
-    robot = _loaded(file)
     if not statements:
-        return robot
-    return robot.coupled(statements)
+        return robots
+    to_couple = [robot for robot in robots if not robot.coupling]
+    cure = "" if to_couple else "; leave --coupling out"
+    try:
+        return [
+            robot.coupled(statements) if robot in (to_couple or robots) else robot
+            for robot in robots
+        ]
+    except InputError as fault:
+        raise InputError(f"{fault}{cure}") from fault
 
 
 def _loaded(file: str) -> Robot:

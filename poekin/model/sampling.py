@@ -7,7 +7,7 @@ import numpy as np
 from ..errors import InputError
 from ..groups.arrays import Array
 from .chain_data import ChainData
-from .readings.coupled import within_own_limits
+from .readings.coupled import beyond_own_limits
 
 DRAWS = 10_000
 """Draws of a configuration after which there is hardly any."""
@@ -26,7 +26,7 @@ def random(
     low, high = sampling_range(chain)
     q = low + (high - low) * rng.random((*size, chain.dof))
     for _ in range(DRAWS):
-        beyond = ~within_own_limits(chain, q)
+        beyond = beyond_own_limits(chain, q).any(axis=-1)
         if not beyond.any():
             return q
         q[beyond] = low + (high - low) * rng.random((np.count_nonzero(beyond), chain.dof))

@@ -41,5 +41,5 @@ def test_at_rest_joints_that_follow_sums_of_readings_have_their_own_limits():
     arm = pk.load("puma560").chain()
     rest = uncoupled_at_zero(arm.coupled("J3 = J2 + J3"))
     np.testing.assert_allclose(rest.limits, arm.limits, rtol=0, atol=1e-14)
-    shifted = uncoupled_at_zero(arm.coupled("J3 = J2 + J3").replace(offset=np.full(6, 0.5)))
-    np.testing.assert_allclose(shifted.limits, arm.limits, rtol=0, atol=1e-14)
+    shifted = arm.replace(offset=np.full(6, 0.5)).coupled("J3 = J2 + J3")
+    np.testing.assert_allclose(uncoupled_at_zero(shifted).limits, arm.limits, rtol=0, atol=1e-14)

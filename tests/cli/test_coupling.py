@@ -39,8 +39,28 @@ def test_a_file_s_own_coupling_needs_no_option_and_takes_no_other(poekin, tmp_pa
     assert (code, out) == (2, "")
     assert err == (
         "poekin: error: --coupling: the readings of robot 'fanuc' are coupled already: joint3 = "
-        "joint2 + joint3\n"
+        "joint2 + joint3; leave --coupling out\n"
     )
+
+
+def test_of_two_models_the_one_is_coupled_that_is_not_yet(poekin, tmp_path):
+    path = tmp_path / "fanuc.csv"
+    poekin("dh", "puma560", *SAID, "--output", path)
+    for pair in ((path, "puma560"), ("puma560", path)):
+        code, out, err = poekin("compare", *pair, *SAID)
+        assert (code, err) == (0, "")
+        assert out.endswith("The models are the same\n")
+        for other in ((), ("--coupling", "J3 = J3 - J2")):
+            code, _, _ = poekin("compare", *pair, *other)
+            assert code == 1
+
+
+def test_of_two_models_that_are_coupled_both_neither_is_coupled_again(poekin, tmp_path):
+    path = tmp_path / "fanuc.csv"
+    poekin("dh", "puma560", *SAID, "--output", path)
+    code, out, err = poekin("compare", path, path, *SAID)
+    assert (code, out) == (2, "")
+    assert err.endswith("coupled already: joint3 = joint2 + joint3; leave --coupling out\n")
 
 
 def test_it_is_shown_by_dh_and_info(poekin):
@@ -53,7 +73,7 @@ def test_it_is_shown_by_dh_and_info(poekin):
     assert lines[0].split()[-2:] == [f"{lower:.6g}", f"{upper:.6g}"]
     _, one, _ = poekin("info", "puma560", *SAID, "--tip", "tool")
     _, alone, _ = poekin("info", "puma560")
-    says = "\nLimits are those of each coordinate alone; the sum of several may be beyond its joint's\n"
+    says = "\nLimits are those of each coordinate alone; solvers keep the joints' own, too\n"
     assert [says in text for text in (out, one, alone)] == [True, True, False]
 
 
@@ -70,7 +90,7 @@ def test_emitted_code_says_of_which_coordinates_it_is_a_function(poekin, tmp_pat
 @pytest.mark.parametrize("ending", ["csv", "json", "yaml"])
 def test_the_fastest_trajectory_of_a_coupled_arm_is_one_of_its_readings(poekin, tmp_path, ending):
     coupled = ARM.coupled("J3 = J2 + J3")
-    q = np.array(READINGS) + np.linspace(0, 0.3, 5)[:, None]
+    q = np.array(READINGS) - np.linspace(0, 0.3, 5)[:, None]
     poses = tmp_path / "T.csv"
     np.savetxt(poses, coupled.fk(q).reshape(5, 16), delimiter=",")
     place = tmp_path / f"trajectory.{ending}"

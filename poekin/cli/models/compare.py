@@ -18,11 +18,12 @@ from ...analysis.compare.differences.conventions import (
 from ...analysis.compare.differences.ends import Chosen, Remedy, remedies
 from ...checks import positive
 from ...errors import InputError, join_names
+from ...model.robot import Robot
 from ..formats.frame_numbers import frame_layout, frame_lines, frame_numbers
 from ..formats.units import Deg, Mm
 from ..kinematics.arm import FILE_HELP, Base, Json, Seed, Tip
 from ..kinematics.poses import Quaternion
-from ..model import model
+from ..model import models
 from ..output import as_json, name, number, path_text, say, table
 
 DEFAULT = ",".join(BUT_NAMES)
@@ -93,8 +94,9 @@ def command(
     """
     counted = _conventions(same)
     chosen = frame_layout(format, quaternion, mm, deg)
-    one = _chosen(a, "--tip", base, tip)
-    other = _chosen(b, "--tip-b", base_b, tip_b, base, tip)
+    robot_a, robot_b = models(a, b)
+    one = _chosen(robot_a, a, "--tip", base, tip)
+    other = _chosen(robot_b, b, "--tip-b", base_b, tip_b, base, tip)
     positive(tol_mm, "--tol-mm")
     positive(tol_deg, "--tol-deg")
     result = compare(
@@ -124,6 +126,7 @@ def _conventions(same: str) -> tuple[Convention, ...]:
 
 
 def _chosen(
+    robot: Robot,
     file: str,
     option: str,
     base: str | None,
@@ -131,7 +134,6 @@ def _chosen(
     base_like: str | None = None,
     tip_like: str | None = None,
 ) -> Chosen:
-    robot = model(file)
     if base is None and base_like in robot.links:
         base = base_like
     if tip is None and tip_like in robot.links:

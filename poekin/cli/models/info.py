@@ -82,9 +82,7 @@ def _show_chain(chain: Chain) -> None:
 def _tell_of_sums(chains: Iterable[Chain]) -> None:
     """A word on limits where a joint follows several coordinates."""
     if any((np.count_nonzero(chain.coupling, axis=1) > 1).any() for chain in chains):
-        say(
-            "Limits are those of each coordinate alone; the sum of several may be beyond its joint's"
-        )
+        say("Limits are those of each coordinate alone; solvers keep the joints' own, too")
 
 
 def _show_drives(joints: Sequence[Joint]) -> None:

@@ -52,8 +52,12 @@ def own_readings(chain: ChainData) -> Array | None:
 
 
 def own_limits(chain: ChainData) -> Array:
-    """Limits (n, 2) of the joints' own values x: their own, and what the coordinates' leave."""
+    """Limits (n, 2) of the joints' own values x: their own, and what the coordinates' leave; a sum
+    of coordinates of other names than the joints' is left free.
+    """
     left = sum_limits(chain.coupling, chain.limits) + chain.offset[:, None]
+    if own_readings(chain) is None:
+        left[np.count_nonzero(chain.coupling, axis=1) != 1] = -np.inf, np.inf
     lower, upper = np.stack([left, chain.joint_limits]).T
     return np.stack([lower.max(axis=-1), upper.min(axis=-1)], axis=-1)
 
@@ -74,12 +78,12 @@ def _said_by_joints(chain: ChainData, limits: Array, speeds: Array) -> dict[str,
     }
 
 
-def within_own_limits(chain: ChainData, q: Array) -> np.ndarray:
-    """Whether the joints are within their own limits (...) at configurations (..., m)."""
+def beyond_own_limits(chain: ChainData, q: Array) -> np.ndarray:
+    """Whether each joint is beyond its own limits (..., n) at configurations (..., m)."""
     x = q @ chain.coupling.T + chain.offset
     lower, upper = chain.joint_limits.T
     rounding = WITHIN * (1 + np.abs(x))
-    return np.asarray(((lower - rounding <= x) & (x <= upper + rounding)).all(axis=-1))
+    return (x < lower - rounding) | (x > upper + rounding)
 
 
 def reading_limits(K: Array, limits: Array) -> Array:

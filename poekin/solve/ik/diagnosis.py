@@ -104,12 +104,14 @@ def find_causes(
     for u, k in zip(free[solved], open_ones[solved], strict=True):
         near = np.clip(u, *domain.limits.T)
         within = domain.wrapped(u, near)
-        if domain.contains(within):
+        if problem.contains(within):
             q[k] = within
             reason[k] = SOLVED
         else:
             reason[k] = LIMITS
+            joints = problem.joints_beyond(problem.coordinates(within))
             hit[k] = limits_hit(domain, q[k], within, problem.fast.q_names)
+            hit[k] = hit[k] or tuple(itertools.compress(problem.given.joint_names, joints))
     return Causes(reason, beyond, tuple(hit))
 
 

@@ -16,7 +16,7 @@ from ...errors import InputError, safe_repr
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
-from ...model.readings.coupled import within_own_limits
+from ...model.readings.coupled import beyond_own_limits
 from ..chain_cache import ChainCache
 from ..joint_units import bounds, joint_units
 from .joint_domain import JointDomain, make_joint_domain
@@ -29,6 +29,12 @@ STEPS = 800_000
 MARGIN = 0.9
 """Share of a tolerance that the kernel solves to: the errors are computed anew by other kernels,
 whose rounding is another."""
+
+AGAIN = 30
+"""Most times that a target is solved from other starts where a joint is beyond its own limits."""
+
+APART = 1e9
+"""Indices of a target that is solved again are so far apart: its starts are others."""
 
 SHARED = 256
 """Most targets that a thread takes at a time."""
@@ -124,8 +130,21 @@ class Problem:
         within = errors <= self._tolerances
         success = within[:, 0] & within[:, 1]
         if self._joint_limits:
-            success &= within_own_limits(self.given, q)
+            success &= ~self.joints_beyond(q).any(axis=-1)
         return errors, success
+
+    def joints_beyond(self, q: Array) -> np.ndarray:
+        """Whether joints are beyond their own limits (..., n) at the user's coordinates, and the
+        limits count.
+        """
+        if self._joint_limits:
+            return beyond_own_limits(self.given, q)
+        return np.zeros((*q.shape[:-1], 1), dtype=bool)
+
+    def contains(self, u: Array) -> np.ndarray:
+        """Whether configurations (..., m) are within the limits (...), the joints' own too."""
+        own = ~self.joints_beyond(self.coordinates(u)).any(axis=-1)
+        return own & self.domain.contains(u)
 
     def error(self, T: Array, target: Array, J: Array) -> Array:
         """Error (6,), rotation first, between two poses; J loses what the task leaves free."""
@@ -151,6 +170,28 @@ class Problem:
         """q and info of targets, whose indices in the batch are given, from q0; NaN there means
         anywhere.
         """
+        options = (restarts, limits, ranges)
+        q, info = self._solved(targets, indices, q0, *options)
+        for turn in range(1, AGAIN if self._joint_limits and limits is None else 0):
+            found = info[:, codes.AT_STATE] == codes.SOLVED
+            beyond = found & self.joints_beyond(self.coordinates(q)).any(axis=-1)
+            if not beyond.any():
+                break
+            other = indices[beyond] + turn * APART
+            start = self.domain.anywhere(len(other))
+            q[beyond], info[beyond] = self._solved(targets[beyond], other, start, *options)
+        return q, info
+
+    def _solved(
+        self,
+        targets: Array,
+        indices: Array,
+        q0: Array,
+        restarts: int | None,
+        limits: Array | None,
+        ranges: Array | None,
+    ) -> tuple[Array, Array]:
+        """q and info of each target's best try."""
         options = self.options
         rows = self._rows
         if restarts is not None:

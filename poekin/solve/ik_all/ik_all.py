@@ -15,6 +15,7 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, compiled
 from ...model.kinematics.compiled import CompiledChain
+from ...model.readings.coupled import beyond_own_limits
 from ...model.sampling import joint_ratios
 from ..ik.task import pose_errors, targets
 from ..joint_units import bounds, joint_units, periods
@@ -132,6 +133,9 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     every = _of_every_target(found, finite, fast.dof)
     places = _places(fast.chain, every, limits, all_revolutions)
     q = units.coordinates(places.q, bounds(given, limits))
+    kept = ~beyond_own_limits(given, q).any(axis=1) | (not limits)
+    places = _Places(q[kept], places.owner[kept], places.number[kept], places.within)
+    q = places.q
     order = _order(q * joint_ratios(given), places.owner)
     places = _Places(q[order], places.owner[order], places.number[order], places.within)
     closed = None if solver is None else solver.said()

@@ -109,7 +109,8 @@ def test_limits_of_joints_are_kept_to_the_last_digit(seed):
 
 def test_limits_of_readings_alone_leave_each_joint_what_their_sum_does():
     K = np.array([[1.0, 0.0], [1.0, 1.0]])
-    chain = pk.Chain.from_space(ARM.screws[:2], ARM.home, coupling=K, limits=[[-2, 1], [-4, 3]])
+    of = {"coupling": K, "limits": [[-2, 1], [-4, 3]], "q_names": ["joint1", "joint2"]}
+    chain = pk.Chain.from_space(ARM.screws[:2], ARM.home, **of)
     assert own_limits(chain).tolist() == [[-2, 1], [-6, 4]]
     assert np.isinf(chain.joint_limits).all()
 
