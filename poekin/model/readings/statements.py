@@ -28,9 +28,10 @@ MOST = 1000
 """Coordinates of the largest robot whose readings may be coupled."""
 SINGULAR = 1e-9
 """Least singular value, of the largest, of readings that determine the joints."""
-_NUMBER = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
-_BLANKS = re.compile(r"\s*")
-_NEXT = re.compile(r"'[^']*'|\"[^\"]*\"|\w+|.", re.DOTALL)
+_NUMBER = re.compile(r"\s*((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)")
+_QUOTED = re.compile(r"\s*(['\"])(?P<name>.*?)\1", re.DOTALL)
+_NEXT = re.compile(r"\s*('[^']*'|\"[^\"]*\"|\w+|.|)", re.DOTALL)
+_EQUALS, _SIGN, _OVER, _TIMES = map(re.compile, (r"\s*(=)", r"\s*([+-])", r"\s*(/)", r"\s*(\*)"))
 _PLAIN = re.compile(r"[^\W\d]\w*")
 
 
@@ -130,102 +131,72 @@ class _Statement:
         self.names = names
         self.numbers = {f"{letter}{k + 1}": k for letter in "Jq" for k in range(len(names))}
         self.numbers |= {name: k for k, name in enumerate(names)}
-        self.longest_first = sorted(self.numbers, key=len, reverse=True)
+        longest_first = sorted(self.numbers, key=len, reverse=True)
+        ends = (re.escape(name) + r"(?!\w)" * _is_word(name[-1]) for name in longest_first)
+        self.known = re.compile(rf"\s*(?P<name>{'|'.join(ends)})")
         self.at = 0
 
     def parsed(self) -> tuple[int, Array]:
         """Number of the joint, and its row (m,) of K."""
         k = self._name("the name of a joint")
-        if not self._taken("="):
+        if not self._taken(_EQUALS):
             raise self._fault("'=' after the name of a joint")
         row = np.zeros(len(self.names))
-        sign = self._sign()
+        sign = self._taken(_SIGN)
         while True:
-            factor = self._factor()
-            row[self._name("the name of a reading")] += (sign or 1.0) * factor
-            if not self._rest():
+            factor = float(f"{sign}1") * self._factor()
+            row[self._name("the name of a reading")] += factor
+            if not self._next():
                 break
-            sign = self._sign()
-            if sign is None:
+            sign = self._taken(_SIGN)
+            if not sign:
                 raise self._fault("'+' or '-' between readings")
         if not np.isfinite(row).all():
             raise InputError(f"coupling: {quote(self.text)} has numbers that are not finite")
         return k, row
 
-    def _rest(self) -> str:
-        """Rest of the text, without blanks before it."""
-        blanks = _BLANKS.match(self.text, self.at)
-        if blanks is not None:
-            self.at = blanks.end()
-        return self.text[self.at :]
-
-    def _taken(self, mark: str) -> bool:
-        there = self._rest().startswith(mark)
-        self.at += there
-        return there
-
-    def _sign(self) -> float | None:
-        if self._taken("+"):
-            return 1.0
-        return -1.0 if self._taken("-") else None
+    def _taken(self, pattern: re.Pattern[str]) -> str:
+        """What stands here, blanks before it apart, and is taken in; "" where it is no such thing."""
+        found = pattern.match(self.text, self.at)
+        if found is None:
+            return ""
+        self.at = found.end()
+        return found[1]
 
     def _factor(self) -> float:
         """The number before a name, 1 where there is none."""
-        if self._known() is not None:
+        if self.known.match(self.text, self.at):
             return 1.0
-        factor = self._number()
-        if factor is None:
+        number = self._taken(_NUMBER)
+        if not number:
             return 1.0
-        if self._taken("/"):
-            divisor = self._number()
+        factor = float(number)
+        if self._taken(_OVER):
+            divisor = float(self._taken(_NUMBER) or 0.0)
             if not divisor:
                 raise self._fault("a number other than 0 after '/'")
             factor /= divisor
-        self._taken("*")
+        self._taken(_TIMES)
         return factor
-
-    def _number(self) -> float | None:
-        self._rest()
-        found = _NUMBER.match(self.text, self.at)
-        if found is None:
-            return None
-        self.at = found.end()
-        return float(found[0])
-
-    def _known(self) -> str | None:
-        """The name that stands here, without quotes."""
-        rest = self._rest()
-        for name in self.longest_first:
-            if rest.startswith(name):
-                behind = rest[len(name) : len(name) + 1]
-                if not (_word(name[-1]) and _word(behind)):
-                    return name
-        return None
 
     def _name(self, expected: str) -> int:
         """Number of the name that stands here."""
-        rest = self._rest()
-        mark = rest[:1]
-        if mark in ("'", '"') and mark in rest[1:]:
-            name = rest[1:].partition(mark)[0]
-            length = len(name) + 2
-        else:
-            name = self._known() or ""
-            length = len(name)
-        if name not in self.numbers:
-            found = _NEXT.match(rest)
-            asked = name or (found[0] if found else "")
-            raise self._fault(expected, f"; {suggest(asked, self.names)}")
-        self.at += length
+        found = _QUOTED.match(self.text, self.at) or self.known.match(self.text, self.at)
+        name = found["name"] if found else ""
+        if found is None or name not in self.numbers:
+            raise self._fault(expected, f"; {suggest(name or self._next(), self.names)}")
+        self.at = found.end()
         return self.numbers[name]
 
+    def _next(self) -> str:
+        """What stands here, "" at the end."""
+        found = _NEXT.match(self.text, self.at)
+        return found[1] if found else ""
+
     def _fault(self, expected: str, hint: str = "") -> InputError:
-        found = _NEXT.match(self._rest())
-        got = "nothing"
-        if found is not None:
-            got = quote(found[0], 40)
+        got = quote(self._next(), 40) if self._next() else "nothing"
         return InputError(f"coupling: {quote(self.text)}: expected {expected}, got {got}{hint}")
 
 
-def _word(character: str) -> bool:
+def _is_word(character: str) -> bool:
     return character == "_" or character.isalnum()
