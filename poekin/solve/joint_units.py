@@ -22,6 +22,9 @@ from .chain_cache import ChainCache
 MOST_TURNS = 12
 """Periods of more turns than this of the fastest joint are not used."""
 
+SAME = 1e-9
+"""Tolerance (rad or m) of limits that are the same."""
+
 WHOLE = 1e-12
 """Tolerance of a whole number of turns: the ratios of joints are products and quotients of given
 ratios.
@@ -39,10 +42,6 @@ class JointUnits(NamedTuple):
     def of(self, q: Array) -> Array:
         """Joint units u (..., m) of coordinates q."""
         return q if self.scale is None else np.einsum("jk,...k->...j", self.scale, q)
-
-    def of_locked(self, values: Array) -> Array:
-        """Joint units (m,) of what is locked; NaN for the others."""
-        return values if self.scale is None else np.diag(self.scale) * values
 
     def of_steps(self, most: Array) -> Array:
         """Largest steps (m,) of u, within which no coordinate makes a larger one than these."""
@@ -65,19 +64,17 @@ class JointUnits(NamedTuple):
 _UNITS: ChainCache[JointUnits] = ChainCache()
 
 
-def joint_units(fast: CompiledChain, locked: tuple[str, ...] = ()) -> JointUnits:
-    """Arm in the units of its joints, of which each locked coordinate has its own; made once and
-    kept.
-    """
+def joint_units(fast: CompiledChain, locked: bool = False) -> JointUnits:
+    """Arm in the units of its joints; made once and kept. Where some are `locked`, S is diagonal."""
     if fast.chain.nontrivial_coupling is None:
         return JointUnits(fast, None)
     return _UNITS.get(fast, locked) or _UNITS.keep(fast, _joint_units(fast, locked), locked)
 
 
-def _joint_units(fast: CompiledChain, locked: tuple[str, ...]) -> JointUnits:
+def _joint_units(fast: CompiledChain, locked: bool) -> JointUnits:
     chain = fast.chain
     C = chain.coupling
-    if _is_of_joints(chain, locked):
+    if not locked and _sums_imply_limits(chain):
         limits = own_limits(chain) - chain.offset[:, None]
         own = chain.replace(coupling=None, limits=limits, joint_limits=None)
         return JointUnits(own.compile(), C)
@@ -89,23 +86,17 @@ def _joint_units(fast: CompiledChain, locked: tuple[str, ...]) -> JointUnits:
     return JointUnits(scaled.compile(), np.diag(scale))
 
 
-def _is_of_joints(chain: Chain, locked: tuple[str, ...]) -> bool:
-    """Whether the joints' values, some of which are sums of coordinates, are as good coordinates:
-    their limits imply those of the given ones, and each locked coordinate is a joint's own.
+def _sums_imply_limits(chain: Chain) -> bool:
+    """Whether joints that are sums of coordinates are as good coordinates, as their limits imply
+    those of the given ones.
     """
     C = chain.coupling
-    if len(C) != chain.dof or (np.count_nonzero(C, axis=1) <= 1).all():
-        return False
-    if np.linalg.matrix_rank(C) < len(C):
-        return False
-    shared = C - np.diag(np.diag(C))
-    at = [k for k, name in enumerate(chain.q_names) if name in locked]
-    if shared[at].any() or shared[:, at].any():
+    sums = (np.count_nonzero(C, axis=1) > 1).any()
+    if not sums or len(C) != chain.dof or np.linalg.matrix_rank(C) < len(C):
         return False
     lower, upper = reading_limits(C, own_limits(chain) - chain.offset[:, None]).T
     low, high = chain.limits.T
-    rounding = 1e-9 * (1 + np.abs(np.where(np.isfinite(chain.limits), chain.limits, 0.0))).max()
-    return bool((lower >= low - rounding).all() and (upper <= high + rounding).all())
+    return bool(np.all((lower >= low - SAME) & (upper <= high + SAME)))
 
 
 def bounds(chain: Chain, limits: bool) -> Array:

@@ -109,9 +109,7 @@ def find_causes(
             reason[k] = SOLVED
         else:
             reason[k] = LIMITS
-            joints = problem.joints_beyond(problem.coordinates(within))
             hit[k] = limits_hit(domain, q[k], within, problem.fast.q_names)
-            hit[k] = hit[k] or tuple(itertools.compress(problem.given.joint_names, joints))
     return Causes(reason, beyond, tuple(hit))
 
 

@@ -85,7 +85,7 @@ class Problem:
 
         self.settings = settings
         self.given = fast.chain
-        self.units = joint_units(fast, tuple(name for name, _ in settings.lock or ()))
+        self.units = joint_units(fast, bool(settings.lock))
         self.fast = self.units.fast
         self.domain: JointDomain = make_joint_domain(self.units, settings.lock, settings.limits)
         self.task: Task = _task(settings, self.fast.chain, self.domain)
@@ -128,23 +128,19 @@ class Problem:
         """
         errors = pose_errors(self.given, self.task, q, targets)
         within = errors <= self._tolerances
-        success = within[:, 0] & within[:, 1]
-        if self._joint_limits:
-            success &= ~self.joints_beyond(q).any(axis=-1)
-        return errors, success
+        return errors, within[:, 0] & within[:, 1] & self.keeps_joints(q)
 
-    def joints_beyond(self, q: Array) -> np.ndarray:
-        """Whether joints are beyond their own limits (..., n) at the user's coordinates, and the
-        limits count.
+    def keeps_joints(self, q: Array) -> np.ndarray:
+        """Whether joints are within their own limits (...), where these count, at the user's
+        coordinates.
         """
-        if self._joint_limits:
-            return beyond_own_limits(self.given, q)
-        return np.zeros((*q.shape[:-1], 1), dtype=bool)
+        if not self._joint_limits:
+            return np.True_
+        return ~beyond_own_limits(self.given, q).any(axis=-1)
 
     def contains(self, u: Array) -> np.ndarray:
         """Whether configurations (..., m) are within the limits (...), the joints' own too."""
-        own = ~self.joints_beyond(self.coordinates(u)).any(axis=-1)
-        return own & self.domain.contains(u)
+        return self.domain.contains(u) & self.keeps_joints(self.coordinates(u))
 
     def error(self, T: Array, target: Array, J: Array) -> Array:
         """Error (6,), rotation first, between two poses; J loses what the task leaves free."""
@@ -162,24 +158,21 @@ class Problem:
         targets: Array,
         indices: Array,
         q0: Array,
-        *,
-        restarts: int | None = None,
-        limits: Array | None = None,
-        ranges: Array | None = None,
+        **options: Any,
     ) -> tuple[Array, Array]:
         """q and info of targets, whose indices in the batch are given, from q0; NaN there means
-        anywhere.
+        anywhere. Options: restarts, limits, ranges.
         """
-        options = (restarts, limits, ranges)
-        q, info = self._solved(targets, indices, q0, *options)
-        for turn in range(1, AGAIN if self._joint_limits and limits is None else 0):
-            found = info[:, codes.AT_STATE] == codes.SOLVED
-            beyond = found & self.joints_beyond(self.coordinates(q)).any(axis=-1)
+        q, info = self._solved(targets, indices, q0, **options)
+        checked = self._joint_limits and options.get("limits") is None
+        for turn in range(1, AGAIN if checked else 1):
+            beyond = info[:, codes.AT_STATE] == codes.SOLVED
+            beyond = beyond & ~self.keeps_joints(self.coordinates(q))
             if not beyond.any():
                 break
             other = indices[beyond] + turn * APART
             start = self.domain.anywhere(len(other))
-            q[beyond], info[beyond] = self._solved(targets[beyond], other, start, *options)
+            q[beyond], info[beyond] = self._solved(targets[beyond], other, start, **options)
         return q, info
 
     def _solved(
@@ -187,11 +180,12 @@ class Problem:
         targets: Array,
         indices: Array,
         q0: Array,
-        restarts: int | None,
-        limits: Array | None,
-        ranges: Array | None,
+        *,
+        restarts: int | None = None,
+        limits: Array | None = None,
+        ranges: Array | None = None,
     ) -> tuple[Array, Array]:
-        """q and info of each target's best try."""
+        """q and info of the best try of each target."""
         options = self.options
         rows = self._rows
         if restarts is not None:

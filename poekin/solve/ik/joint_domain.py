@@ -161,7 +161,7 @@ def _locked_values(units: JointUnits, lock: Any, limits: Array) -> Array:
     value.
     """
     names = units.fast.q_names
-    scales = units.of_locked(np.ones(len(names)))
+    scales = units.of(np.ones(len(names)))
     values = np.full(len(names), np.nan)
     for name, value in lock or ():
         if name not in names:

@@ -117,7 +117,7 @@ class Solution(Result):
     def _cause(self, reason: str, index: tuple[int, ...], flat: int) -> str:
         beyond = self.distance_beyond_reach[index]
         if reason == LIMITS:
-            names = ", ".join(map(quote, self.limits_hit[flat]))
+            names = ", ".join(map(quote, self.limits_hit[flat])) or "joints"
             return f"solvable without them, in the way are those of {names}; within them "
         if reason == ITERATIONS:
             return "the nearest try was still moving when they ended; "

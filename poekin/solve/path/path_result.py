@@ -174,9 +174,10 @@ class PathResult(Result):
         that the task asks. In rad and m of the joints, lengths ÷ reach.
         Computed when it is first asked for, which takes longer than to follow the path.
         """
-        units = joint_units(self.chain.compile(), tuple(self.lock))
+        units = joint_units(self.chain.compile(), bool(self.lock))
         locked = self._locked
-        rank = self.task.generic_rank(units.fast.chain, units.of_locked(locked))
+        held = np.where(np.isnan(locked), locked, units.of(np.nan_to_num(locked)))
+        rank = self.task.generic_rank(units.fast.chain, held)
         if not rank:
             return np.ones(len(self.q))
         T, J = units.fast.chain.fk_jacobian(units.of(self.q), "hybrid")

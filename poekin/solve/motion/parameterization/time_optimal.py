@@ -165,15 +165,16 @@ def _limits(speed: Any, acceleration: Any, chain: Chain) -> _Limits:
                 f"{what}: expected numbers from {1 / LARGEST:g} to {LARGEST:g}, "
                 f"got {safe_repr(values.tolist())}"
             )
-    known = np.full(chain.dof, speed is None)
-    if isinstance(speed, Mapping):
-        known = np.array([name not in speed for name in chain.q_names])
-    C = chain.coupling
-    counts = np.isfinite(chain.joint_velocity_limits) & (C[:, known] != 0).any(axis=1)
+    given = chain.q_names
+    if speed is None or isinstance(speed, Mapping):
+        given = speed or ()
+    left = [name not in given for name in chain.q_names]
+    own = np.where(chain.coupling[:, left].any(axis=1), chain.joint_velocity_limits, np.inf)
+    counts = np.isfinite(own)
     return _Limits(
-        np.vstack([np.eye(chain.dof), C[counts]]),
-        np.append(speeds, chain.joint_velocity_limits[counts]),
-        np.append(accelerations, np.full(np.count_nonzero(counts), np.inf)),
+        np.vstack([np.eye(chain.dof), chain.coupling[counts]]),
+        np.append(speeds, own[counts]),
+        np.append(accelerations, 0 * own[counts] + np.inf),
     )
 
 
