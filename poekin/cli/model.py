@@ -90,15 +90,11 @@ def models(*files: str) -> list[Robot]:
     statements = _run().coupling
     if not statements:
         return robots
-    to_couple = [robot for robot in robots if not robot.coupling]
-    cure = "" if to_couple else "; leave --coupling out"
+    every = all(robot.coupling for robot in robots)
     try:
-        return [
-            robot.coupled(statements) if robot in (to_couple or robots) else robot
-            for robot in robots
-        ]
+        return [r if r.coupling and not every else r.coupled(statements) for r in robots]
     except InputError as fault:
-        raise InputError(f"{fault}{cure}") from fault
+        raise InputError(f"{fault}{'; leave --coupling out' * every}") from fault
 
 
 def _loaded(file: str) -> Robot:

@@ -58,7 +58,8 @@ class JointUnits(NamedTuple):
         """
         if self.scale is None:
             return u
-        return np.clip(np.linalg.solve(self.scale, u[..., None])[..., 0], *limits.T)
+        q = np.linalg.solve(self.scale, u[..., None])[..., 0]
+        return np.asarray(np.clip(q, *limits.T), float)
 
 
 _UNITS: ChainCache[JointUnits] = ChainCache()

@@ -9,7 +9,9 @@ import pytest
 
 import poekin as pk
 from poekin.errors import InputError, ModelError, PoekinWarning
+from poekin.formats import chain_toml
 from poekin.formats.serial import serial_robot
+from poekin.formats.text.toml_text import Keys
 
 PUMA = pk.dh.published("puma560")
 TABLE = pk.dh.Table(
@@ -168,3 +170,12 @@ def test_the_bound_of_a_coupled_arm_holds(places):
     fresh = ARM.random(2, 200)
     moved = np.linalg.norm((found.chain.fk(fresh) - true.fk(fresh))[:, :3, 3], axis=1)
     assert (moved <= found.pose_bound(fresh).position).all()
+
+
+def test_a_table_of_toml_keeps_the_joints_own_limits():
+    chain = pk.dh.to_chain(PUMA).replace(velocity_limits=np.arange(1.0, 7.0))
+    coupled = chain.coupled("J3 = J2 + J3")
+    again = chain_toml.to_chain(Keys(chain_toml.to_data(coupled), "arm.toml"))
+    assert again == coupled
+    assert np.isfinite(again.joint_limits[2]).all()
+    assert again.joint_velocity_limits[2] == 3.0

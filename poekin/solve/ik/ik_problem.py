@@ -135,8 +135,8 @@ class Problem:
         coordinates.
         """
         if not self._joint_limits:
-            return np.True_
-        return ~beyond_own_limits(self.given, q).any(axis=-1)
+            return np.array(True)
+        return np.asarray(~beyond_own_limits(self.given, q).any(axis=-1))
 
     def contains(self, u: Array) -> np.ndarray:
         """Whether configurations (..., m) are within the limits (...), the joints' own too."""

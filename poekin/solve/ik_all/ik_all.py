@@ -133,10 +133,9 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     every = _of_every_target(found, finite, fast.dof)
     places = _places(fast.chain, every, limits, all_revolutions)
     q = units.coordinates(places.q, bounds(given, limits))
-    kept = ~beyond_own_limits(given, q).any(axis=1) | (not limits)
-    places = _Places(q[kept], places.owner[kept], places.number[kept], places.within)
-    q = places.q
     order = _order(q * joint_ratios(given), places.owner)
+    if limits:
+        order = order[~beyond_own_limits(given, q[order]).any(axis=1)]
     places = _Places(q[order], places.owner[order], places.number[order], places.within)
     closed = None if solver is None else solver.said()
     complete = [

@@ -183,3 +183,16 @@ def test_the_sizes_that_are_told_apart_are_as_far_from_17_cm_by_their_logarithm(
 def test_a_wrong_unit_is_suspected_within_a_factor_of_5_of_1000(factor, ratio):
     chain = random_arm(2, ("revolute",) * 4)
     assert length_ratio(chain, rescaled(chain, factor)) == ratio
+
+
+def test_the_joints_own_limits_have_the_unit_of_the_lengths_too():
+    limits = np.array([[-1.0, 2.0], [-3.0, 0.5], *COBRA.limits[2:]])
+    chain = RAIL.replace(limits=np.resize(limits, (5, 2)), velocity_limits=np.arange(1.0, 6.0))
+    said = "J2 = J1 + J2"
+    other = rescaled(chain.coupled(said), 1000.0)
+    apart = rescaled(chain, 1000.0)
+    np.testing.assert_allclose(other.joint_limits[1], apart.limits[1], rtol=1e-15)
+    assert other.joint_velocity_limits[1] == apart.velocity_limits[1] == 2.0
+    slide = rescaled(chain.coupled("J1 = J1 + J2"), 1000.0)
+    np.testing.assert_allclose(slide.joint_limits[0], 1000.0 * chain.limits[0], rtol=1e-15)
+    assert slide.joint_velocity_limits[0] == 1000.0

@@ -38,7 +38,7 @@ def nearest(
     first = np.where(np.isnan(q0), within, q0)
     q, kept = problem.solve(targets, indices, first)
     best = domain.wrapped(q, near)
-    distance = _distance(problem, best, near, kept)
+    distance = _distance(best, near, kept)
     rng = np.random.default_rng(problem.settings.seed)
     low, high = domain.ranges.T
     anywhere = bounds(problem.fast.chain, False)
@@ -49,7 +49,8 @@ def nearest(
         limits = None if limited else anywhere
         other, info = problem.solve(targets, indices, start, restarts=0, limits=limits)
         other = domain.wrapped(other, near)
-        far = _distance(problem, other, near, info)
+        far = _distance(other, near, info)
+        far[~problem.contains(other)] = np.inf
         nearer = far < distance
         best[nearer] = other[nearer]
         distance[nearer] = far[nearer]
@@ -57,8 +58,8 @@ def nearest(
     return best, kept
 
 
-def _distance(problem: Problem, q: Array, near: Array, info: Array) -> Array:
+def _distance(q: Array, near: Array, info: Array) -> Array:
     """Distance of solutions from a configuration; infinite where there is no solution."""
-    solved = (info[:, codes.AT_STATE] == codes.SOLVED) & problem.contains(q)
+    solved = info[:, codes.AT_STATE] == codes.SOLVED
     distance = np.linalg.norm(q - near, axis=1)
     return np.where(solved, distance, np.inf)

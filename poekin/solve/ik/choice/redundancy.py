@@ -56,7 +56,7 @@ def _improved(aim: Aim, targets: Array, best: Array) -> Array:
         found, info = aim.problem.solve(targets, indices, tried, restarts=0)
         new = aim.value(found)
         solved = info[:, codes.AT_STATE] == codes.SOLVED
-        better = solved & (new < value) & aim.problem.contains(found)
+        better = solved & (new < value)
         best[better] = found[better]
         value[better] = new[better]
         step = np.where(better, step, 0.5 * step)
