@@ -156,7 +156,7 @@ class _Statement:
         return k, row
 
     def _taken(self, pattern: re.Pattern[str]) -> str:
-        """What stands here, blanks before it apart, and is taken in; "" where it is no such thing."""
+        """Text that fits, blanks before it apart, which is taken in; "" where none does."""
         found = pattern.match(self.text, self.at)
         if found is None:
             return ""
@@ -189,7 +189,7 @@ class _Statement:
         return self.numbers[name]
 
     def _next(self) -> str:
-        """What stands here, "" at the end."""
+        """Name, number or mark that stands here, "" at the end."""
         found = _NEXT.match(self.text, self.at)
         return found[1] if found else ""
 

@@ -192,7 +192,7 @@ def test_a_joint_of_several_readings_is_as_fast_as_its_own_limit_and_no_faster(a
     s = np.unique(np.append(knots, np.linspace(0, knots[-1], 2001)))
     best = shortest_time(
         CubicSpline(knots, values),
-        np.append(chain.velocity_limits, SPEED),
+        np.append(np.full(6, 1e9), SPEED),  # the joints' own alone
         np.append(ACCELERATION, np.full(6, 1e9)),
         s,
     )
@@ -209,6 +209,9 @@ def test_a_joint_s_own_limit_of_speed_counts_unless_all_its_readings_are_given(a
         return motion.time_optimal(chain, q, acceleration=1e4, speed=speed).duration
 
     assert duration(None) == pytest.approx(20.0, rel=3e-3)  # two steps of 1000
+    q[1, 2] = 0.0  # joints 2 and 3 turn by 10 rad
+    assert duration(None) == pytest.approx(10.0, rel=3e-3)  # two steps of 1000
+    q[1, 2] = 10.0
     assert duration({names[1]: 1.0}) == pytest.approx(20.0, rel=3e-3)  # two steps of 1000
     assert duration({names[1]: 1.0, names[2]: 1.0}) == pytest.approx(
         10.0, rel=3e-3
