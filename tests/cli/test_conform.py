@@ -10,19 +10,22 @@ from poekin.testing import conform
 
 HEAD = """
 import numpy as np
-import poekin as pk
+from poekin.testing.oracles import exact
+
+def exp(x):
+    return exact.rounded(exact.exp(x))  # unlike poekin's own it is not compiled
 
 class Sound:
-    so3_exp = staticmethod(pk.so3.exp)
+    so3_exp = staticmethod(exp)
 
 class Faulty:
     twist_order = "angular first"
-    exp = staticmethod(pk.se3.exp)
+    exp = staticmethod(exp)
     def so3_exp(self, w):
-        return pk.so3.exp(w) if np.linalg.norm(w) > 1e-6 else np.eye(3)
+        return exp(w) if np.linalg.norm(w) > 1e-6 else np.eye(3)
 
 class Undeclared:
-    exp = staticmethod(pk.se3.exp)
+    exp = staticmethod(exp)
 
 class Needs(Sound):
     def __init__(self, robot):
@@ -45,7 +48,7 @@ def test_a_sound_subject_is_exact(tmp_path, monkeypatch, poekin):
 
 def test_a_faulty_one_is_1_and_its_counterexample_can_be_pasted(tmp_path, monkeypatch, poekin):
     module(tmp_path, monkeypatch, "faulty_subjects")
-    arguments = ("conform", "faulty_subjects:Faulty", "--law", "so3_exp", "--examples", "200")
+    arguments = ("conform", "faulty_subjects:Faulty", "--law", "so3_exp", "--examples", "60")
     code, out, err = poekin(*arguments)
     assert (code, err) == (1, "")
     assert "from faulty_subjects import Faulty; print(np.asarray(Faulty().so3_exp(np.array([" in out
@@ -107,7 +110,7 @@ def test_only_the_laws_that_are_named_are_run(tmp_path, monkeypatch, poekin):
 
 def test_a_law_is_left_out_and_another_bar_is_set(tmp_path, monkeypatch, poekin):
     module(tmp_path, monkeypatch, "barred_subjects")
-    arguments = ("conform", "barred_subjects:Faulty", "--examples", "200")
+    arguments = ("conform", "barred_subjects:Faulty", "--examples", "60")
     code, out, _ = poekin(*arguments, "--except", "so3_exp", "--examples", "5", "--json")
     document = json.loads(out)
     assert (code, [law["law"] for law in document["laws"]]) == (0, ["exp"])

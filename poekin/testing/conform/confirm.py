@@ -8,6 +8,7 @@ judged by its exponential. To 60 digits, in proportion to what is compared.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from typing import Any
 
@@ -30,7 +31,7 @@ def is_exp(
     truth: np.ndarray,
 ) -> bool:
     """Whether a matrix is mpmath's exponential of ω (3,) or (ω; v) (6,)."""
-    return near(_expm(xi), truth)
+    return near(_expm(tuple(xi)), truth)
 
 
 def of_log(X: np.ndarray) -> bool:
@@ -47,7 +48,7 @@ def is_log(
     P is the polar factor where Pᵀ R is symmetric and P is near R: the other rotations with a
     symmetric Pᵀ R are half turns of P, and some entry is off by 0.94 or more.
     """
-    E = _expm(truth)
+    E = _expm(tuple(truth))
     given = _matrix(exact.exactly(X))
     S = E[:3, :3].T * given[:3, :3]
     if not _largest(S - S.T) < AGREE:
@@ -83,22 +84,15 @@ def of_jacobian(
     name: str,
     xi: np.ndarray,
 ) -> bool:
-    """Whether a Jacobian of exp of `exact` is ∫ e^{± s ad ξ} ds, 0 ≤ s ≤ 1, or the inverse of that.
-
-    The integral is the upper right block of the exponential of [± ad ξ, I; 0, 0].
-    """
-    n = len(xi)
+    """Whether a Jacobian of exp of `exact` is ∫ e^{± s ad ξ} ds, 0 ≤ s ≤ 1, or the inverse of that."""
     sign = 1
     if name.startswith("right"):
         sign = -1
-    big = _mp.zeros(2 * n)
-    big[:n, :n] = sign * _ad(xi)
-    big[:n, n:] = _mp.eye(n)
-    J = _mp.expm(big)[:n, n:]
+    J = _integral(tuple(sign * xi))
     truth = _matrix(getattr(exact, name)(xi))
     scale = 1 + float(np.abs(xi).max())
     if name.endswith("_inverse"):
-        return bool(_largest(J * truth - _mp.eye(n)) < AGREE * scale**2)
+        return bool(_largest(J * truth - _mp.eye(len(xi))) < AGREE * scale**2)
     return bool(_largest(J - truth) < AGREE * scale)
 
 
@@ -151,7 +145,7 @@ def chain_of(factors: Sequence[Any]) -> Any:
     """The product of exponentials of twists (6,), as an mpmath matrix."""
     T = _mp.eye(4)
     for xi in factors:
-        T = T * _expm(xi)
+        T = T * _expm(tuple(xi))
     return T
 
 
@@ -177,8 +171,20 @@ def near(
     return bool(_largest(X - other) < AGREE * scale)
 
 
-def _expm(xi: Any) -> Any:
+# A difference moves one joint of many, and the links of a tree share most of their joints.
+@functools.lru_cache(maxsize=256)
+def _expm(xi: tuple[Any, ...]) -> Any:
     return _mp.expm(_hat(xi))
+
+
+@functools.lru_cache(maxsize=16)
+def _integral(xi: tuple[Any, ...]) -> Any:
+    """∫ e^{s ad ξ} ds, 0 ≤ s ≤ 1: the upper right block of the exponential of [ad ξ, I; 0, 0]."""
+    n = len(xi)
+    big = _mp.zeros(2 * n)
+    big[:n, :n] = _ad(xi)
+    big[:n, n:] = _mp.eye(n)
+    return _mp.expm(big)[:n, n:]
 
 
 def _hat(xi: Any) -> Any:

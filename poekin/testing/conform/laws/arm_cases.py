@@ -77,9 +77,8 @@ def cases(subject: Subject, kinds: tuple[str, ...] = KINDS) -> Cases:
         limits = CoordinateLimits(*(tuple(side) for side in bounds(subject.arm).T.tolist()))
         inside = st.one_of(within_limits(subject.arm), at_limits(subject.arm))
         return inside.map(lambda q: Case(np.asarray(q), limits))
-    return st.lists(_joints(kinds), min_size=1, max_size=4).flatmap(
-        lambda joints: twists(math.pi, LENGTHS).map(lambda home: _case(joints, np.asarray(home)))
-    )
+    joints = st.lists(_joints(kinds), min_size=1, max_size=4)
+    return st.builds(_case, joints, twists(math.pi, LENGTHS))
 
 
 def _joints(kinds: tuple[str, ...]) -> st.SearchStrategy[tuple[str, Array]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -232,6 +233,7 @@ class _BatchLaw:
         return _truth(subject, self.name, np.zeros(_count(self.name))).shape
 
     def cases(self, _: Subject) -> Cases:
+        @functools.cache
         def of(shape: tuple[int, ...]) -> Cases:
             elements = batches(_numbers(self.name), shape)
             return elements.map(lambda x: Case(np.asarray(x).ravel(), shape))

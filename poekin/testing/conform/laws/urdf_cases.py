@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Iterable
 
@@ -81,6 +82,7 @@ def arms(
 ) -> Cases:
     """One to three joints of these kinds, the first one moving, in the file's order."""
 
+    @functools.cache
     def of(count: int) -> Cases:
         first = st.sampled_from([kind for kind in kinds if kind != "fixed"])
         sorts = st.tuples(first, *[st.sampled_from(kinds)] * (count - 1))
@@ -134,6 +136,10 @@ def mimics() -> Cases:
     return st.builds(make, st.integers(0, 1), kinds, st.tuples(_followers(), _followers()))
 
 
+def _orders(*counts: int) -> st.SearchStrategy[list[int]]:
+    return st.one_of(*(st.permutations(range(count)) for count in counts))
+
+
 def trees(mimic: bool = False) -> Cases:
     """Three or four joints of a tree with two branches or more, the file in any order.
 
@@ -158,7 +164,7 @@ def trees(mimic: bool = False) -> Cases:
     if not mimic:
         sorts.append("fixed")
     kinds = st.sampled_from(sorts)
-    files = st.sampled_from([3, 4]).flatmap(lambda count: st.permutations(range(count)))
+    files = _orders(3, 4)
     places = st.tuples(*[st.integers(-1, 2)] * 3)
     return st.builds(make, st.tuples(*[kinds] * 4), places, files, st.tuples(*[_followers()] * 4))
 
@@ -183,7 +189,7 @@ def orders() -> Cases:
             layout = layout._replace(after=(-1, -1, *range(1, count - 1)))
         return _numbers(layout, rows)
 
-    files = st.sampled_from([2, 3, 4]).flatmap(lambda count: st.permutations(range(count)))
+    files = _orders(2, 3, 4)
     rows = st.tuples(*[_row(frame_axes(), signed_angles())] * 4)
     return st.builds(make, st.permutations([*NAMES, "side"]), files, st.booleans(), rows)
 

@@ -6,8 +6,6 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from ...accuracy.error_bounds import UNIT
-
 PrecisionName = Literal["float64", "float32"]
 
 
@@ -37,7 +35,7 @@ class Precision(NamedTuple):
     @property
     def coarser(self) -> float:
         """Ratio of its unit to that of float64."""
-        return self.unit / UNIT
+        return self.unit / DOUBLE.unit
 
     def rounded(self, x: np.ndarray) -> np.ndarray:
         """Floats of this precision nearest to x, as float64; what would be subnormal is 0."""
@@ -47,7 +45,7 @@ class Precision(NamedTuple):
         return np.where(np.abs(near) < 1e-30, 0.0, near)
 
 
-DOUBLE = Precision("float64", UNIT, 1e-10, 1e-6, 1e-150)
+DOUBLE = Precision("float64", 2.0**-53, 1e-10, 1e-6, 1e-150)
 SINGLE = Precision("float32", 2.0**-24, 1e-5, 1e-3, 1e-18)
 PRECISIONS = {precision.name: precision for precision in (DOUBLE, SINGLE)}
 
