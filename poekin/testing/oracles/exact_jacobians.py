@@ -7,7 +7,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .exact_numbers import coefficients, hat, identity, inverse3, least, lower_blocks, mp, vector
+from .exact_numbers import (
+    LEAST_CLOSED,
+    coefficients,
+    hat,
+    identity,
+    inverse3,
+    least,
+    lower_blocks,
+    mp,
+    vector,
+)
 
 
 def left_jacobian(xi: ArrayLike) -> np.ndarray:
@@ -31,22 +41,22 @@ def left_jacobian(xi: ArrayLike) -> np.ndarray:
         For another shape.
     """
     x = vector(xi)
+    s = x[:3] @ x[:3]
     W = hat(x[:3])
+    WW = W @ W
+    _, b, c = coefficients(s)
+    P = identity(3) + W * b + WW * c
     if len(x) == 3:
-        _, b, c = coefficients(x @ x)
-        return identity(3) + W * b + (W @ W) * c
+        return P
     # X = ad(ξ) obeys X⁵ = -2θ² X³ - θ⁴ X, so every power, and the series, is a sum of X, X², X³ and
-    # X⁴.
-    V = hat(x[3:])
-    sum_P = identity(3)
-    sum_Q = 0 * V
-    P = W
-    Q = V
-    for factor in _jacobian_series(x[:3] @ x[:3]):
-        sum_P = sum_P + P * factor
-        sum_Q = sum_Q + Q * factor
-        P, Q = W @ P, W @ Q + V @ P
-    return lower_blocks(sum_P, sum_Q)
+    # X⁴. These are their lower blocks; [ω]³ = -θ² [ω].
+    Q = hat(x[3:])
+    QW = Q @ W
+    Q2 = W @ Q + QW
+    Q3 = W @ Q2 + Q @ WW
+    Q4 = W @ Q3 - QW * s
+    f1, f2, f3, f4 = _jacobian_series(s)
+    return lower_blocks(P, Q * f1 + Q2 * f2 + Q3 * f3 + Q4 * f4)
 
 
 def left_jacobian_inverse(xi: ArrayLike) -> np.ndarray:
@@ -121,6 +131,9 @@ def right_jacobian_inverse(xi: ArrayLike) -> np.ndarray:
 
 def _jacobian_series(s: Any) -> list[Any]:
     """The factors of X, X², X³, X⁴ in Σ X^k / (k+1)!, k >= 1, where X⁵ = -2s X³ - s² X."""
+    if s >= LEAST_CLOSED:
+        a, b, c = coefficients(s)
+        return [2 * b - a / 2, (5 * c - b) / 2, (2 * b - a) / (2 * s), (3 * c - b) / (2 * s)]
     power = [mp.one, mp.zero, mp.zero, mp.zero]
     sums = [mp.zero] * 4
     weight = mp.one / 2

@@ -21,6 +21,8 @@ DIGITS = 80
 mp: Any = mpmath.mp.clone()
 """The oracle's own mpmath context."""
 mp.dps = DIGITS
+LEAST_CLOSED = 1e-6
+"""Least θ² in rad² for closed forms, which are many times as fast as series and lose up to 7 digits of 80 here."""
 
 
 def _mpf(x: Any) -> Any:
@@ -226,17 +228,17 @@ def hat(w: ArrayLike) -> np.ndarray:
 
 def coefficients(s: Any) -> tuple[Any, Any, Any]:
     """Coefficients sin θ/θ, (1 - cos θ)/θ², (θ - sin θ)/θ³ as functions of s = θ²."""
-    if s >= 1:
+    if s >= LEAST_CLOSED:
         t = mp.sqrt(s)
-        sine = mp.sin(t)
-        versine = 1 - mp.cos(t)
-        return sine / t, versine / s, (t - sine) / (s * t)
+        cosine, sine = mp.cos_sin(t)
+        return sine / t, (1 - cosine) / s, (t - sine) / (s * t)
     sums = []
+    small = least()
     for first in (1, 2, 3):
         term = mp.one / mp.factorial(first)
         total = term
         k = first
-        while abs(term) > least():
+        while abs(term) > small:
             divisor = (k + 1) * (k + 2)
             term = -term * s / divisor
             total = total + term

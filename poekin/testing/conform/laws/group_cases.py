@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -220,74 +219,59 @@ def _noise_law() -> SubjectLaw:
     )
 
 
-@dataclass(frozen=True)
-class _BatchLaw:
+def _batch_law(name: str) -> SubjectLaw:
     """The law of a function of a batch: its value is that of each element."""
+    count = _count(name)
+    numbers = _numbers(name)
+    judge = _checked(name)
 
-    name: str
+    @functools.cache
+    def of(shape: tuple[int, ...]) -> Cases:
+        return batches(numbers, shape).map(lambda x: Case(np.asarray(x).ravel(), shape))
 
-    def rows(self, case: Case) -> Array:
-        return case.numbers.reshape(-1, _count(self.name))
+    def rows(case: Case) -> Array:
+        return case.numbers.reshape(-1, count)
 
-    def tail(self, subject: Subject) -> tuple[int, ...]:
-        return _truth(subject, self.name, np.zeros(_count(self.name))).shape
-
-    def cases(self, _: Subject) -> Cases:
-        @functools.cache
-        def of(shape: tuple[int, ...]) -> Cases:
-            elements = batches(_numbers(self.name), shape)
-            return elements.map(lambda x: Case(np.asarray(x).ravel(), shape))
-
-        return batch_shapes().flatmap(of)
-
-    def arguments(self, subject: Subject, case: Case) -> Array:
-        made = [_argument(subject, self.name, row) for row in self.rows(case)]
-        one = _argument(subject, self.name, np.zeros(_count(self.name)))
+    def batch(
+        subject: Subject,
+        case: Case,
+        function: Callable[[Subject, str, Array], Array],
+    ) -> Array:
+        """What a function makes of each row, in the shape of the batch."""
+        one = function(subject, name, np.zeros(count))
+        made = [function(subject, name, row) for row in rows(case)]
         return np.reshape(made, (*case.layout, *one.shape))
 
-    def check(self, subject: Subject, case: Case) -> Verdict:
-        x = self.arguments(subject, case)
-        shape = (*case.layout, *self.tail(subject))
-        result, fault = called(subject.function(self.name), shape, x)
+    def check(subject: Subject, case: Case) -> Verdict:
+        x = batch(subject, case, _argument)
+        tail = _truth(subject, name, np.zeros(count)).shape
+        result, fault = called(subject.function(name), (*case.layout, *tail), x)
         if fault:
-            return graded(f"batches of {self.name}", fault)
-        results = result.reshape(-1, *self.tail(subject))
+            return graded(f"batches of {name}", fault)
         flat = x.reshape(-1, *x.shape[len(case.layout) :])
-        check = _checked(self.name)
-        precision = subject.precision(self.name)
+        precision = subject.precision(name)
         verdicts = [
-            check(lambda _, row=row: row, one, Grade.BROKEN, precision)
-            for one, row in zip(flat, results, strict=True)
+            judge(lambda _, row=row: row, one, Grade.BROKEN, precision)
+            for one, row in zip(flat, result.reshape(-1, *tail), strict=True)
         ]
         return max(verdicts, key=lambda v: v.rank, default=NOTHING)
 
-    def show(self, subject: Subject, case: Case) -> Shown:
-        x = _in_order(subject, self.name, self.arguments(subject, case))
+    def show(subject: Subject, case: Case) -> Shown:
+        x = _in_order(subject, name, batch(subject, case, _argument))
         text = f"np.reshape({typed(x.ravel())}, {x.shape})"
-        truth = np.array([_truth(subject, self.name, row) for row in self.rows(case)])
-        truth = truth.reshape(*case.layout, *self.tail(subject))
-        words = f"a batch {case.layout} of {'; '.join(map(coordinates, self.rows(case)))}"
-        expected = _in_order(subject, self.name, truth)
-        return Shown(words, subject.call(self.name, x=text), expected)
+        words = f"a batch {case.layout} of {'; '.join(map(coordinates, rows(case)))}"
+        expected = _in_order(subject, name, batch(subject, case, _truth))
+        return Shown(words, subject.call(name, x=text), expected)
 
-    def confirm(self, subject: Subject, case: Case) -> bool:
-        return all(_confirmed(subject, self.name, row) for row in self.rows(case))
-
-    def allowed(self, case: Case) -> bool:
-        return all(_drawable(self.name, row) for row in self.rows(case))
-
-
-def _batch_law(name: str) -> SubjectLaw:
-    law = _BatchLaw(name)
     return SubjectLaw(
         name=f"{name} of batches",
         says=f"{name} of a batch is {name} of each, in shapes (), (1,), (0,), (3, 1, 2)",
         needs=name,
-        cases=law.cases,
-        check=law.check,
-        confirm=law.confirm,
-        show=law.show,
-        allowed=law.allowed,
+        cases=lambda _: batch_shapes().flatmap(of),
+        check=check,
+        confirm=lambda subject, case: all(_confirmed(subject, name, row) for row in rows(case)),
+        show=show,
+        allowed=lambda case: all(_drawable(name, row) for row in rows(case)),
         applies=lambda subject: subject.batch,
         unless="batch = True is not declared",
     )
