@@ -2,7 +2,7 @@
 cancels.
 
 log is by the largest eigenvector of a symmetric 4×4. Nothing is shared with
-`poekin.testing.oracles.exact`, which is made of series and Newton's method.
+`poekin.testing.oracles.exact`, which is made of series towards 0 and Newton's method.
 """
 
 from __future__ import annotations

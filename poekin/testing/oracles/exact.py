@@ -2,9 +2,9 @@
 judges.
 
 Arrays are NumPy arrays of mpmath numbers (dtype object); a float64 that comes in is taken as the
-exact number that it is. Coefficients are power series below |ω| = 1, so no digit is lost towards 0;
-the 6×6 Jacobians of exp are the series Σ ad(ξ)^k / (k+1)!; log first projects onto the rotations
-(polar factor), with 640 digits where sin |ω| < 1e-10.
+exact number that it is. Coefficients are power series below |ω| = 1e-3, so no digit is lost towards
+0, and closed forms from there on; the 6×6 Jacobians of exp are Σ ad(ξ)^k / (k+1)!; log first
+projects onto the rotations (polar factor), with 640 digits where sin |ω| < 1e-10.
 
 Twists are (ω; v) in rad and m, poses those of a frame in the base frame, and none of the functions
 takes a batch. NaN in gives NaN out. Raises: ShapeError for another shape; InputError for what is no

@@ -237,7 +237,7 @@ def _batch_law(name: str) -> SubjectLaw:
         case: Case,
         function: Callable[[Subject, str, Array], Array],
     ) -> Array:
-        """What a function makes of each row, in the shape of the batch."""
+        """Values of a function at each row, in the shape of the batch."""
         one = function(subject, name, np.zeros(count))
         made = [function(subject, name, row) for row in rows(case)]
         return np.reshape(made, (*case.layout, *one.shape))

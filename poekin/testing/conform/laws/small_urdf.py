@@ -81,19 +81,7 @@ def rows_of(case: Case) -> np.ndarray:
 
 def numbers_of(case: Case) -> list[JointNumbers]:
     """Numbers of each joint."""
-    return list(map(_joint_numbers, rows_of(case)))
-
-
-def _joint_numbers(row: np.ndarray) -> JointNumbers:
-    factor, shift, q = row[9:].tolist()
-    return JointNumbers(
-        axis=row[:3],
-        xyz=row[3:6],
-        rpy=row[6:9],
-        factor=factor,
-        shift=shift,
-        q=q,
-    )
+    return [JointNumbers(x[:3], x[3:6], x[6:9], *x[9:].tolist()) for x in rows_of(case)]
 
 
 def moving(case: Case) -> list[int]:
@@ -217,13 +205,9 @@ def arm(
         if screw is None:
             continue
         screws.append(exact.adjoint(T) @ screw)
-        follows = np.equal(own, master)
-        if master == k:
-            coupling.append(follows * 1.0)
-            offset.append(0.0)
-        else:
-            coupling.append(follows * (1 + numbers[k].factor))
-            offset.append(numbers[k].shift)
+        # Of a joint that mimics none, factor and shift are 0.
+        coupling.append(np.equal(own, master) * (1 + numbers[k].factor))
+        offset.append(numbers[k].shift)
     n = len(screws)
     turns = np.abs([numbers[k].rpy for k in on])
     found = ArmData(

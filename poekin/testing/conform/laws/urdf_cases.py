@@ -272,23 +272,15 @@ def _robot_law(
     mimic: bool,
     about: About,
 ) -> SubjectLaw:
-    return SubjectLaw(
-        name=name,
-        says=says,
+    law = _law(name, says, lambda: trees(mimic), about, function="poses")
+    return law._replace(
         needs="read_robot",
-        cases=lambda _: trees(mimic),
         check=of_urdf.check_robot,
         confirm=lambda _, case: of_urdf.confirmed(
             case,
             False,
             range(len(small_urdf.rows_of(case))),
         ),
-        show=lambda subject, case: of_urdf.show(subject, case, "poses"),
-        simpler=small_urdf.simpler,
-        triples=small_urdf.triples,
-        directions=small_urdf.axes,
-        allowed=_allowed(_frame_axis),
-        about=about,
     )
 
 

@@ -43,33 +43,24 @@ class Declarations(NamedTuple):
 
     def flag(self, what: str) -> bool:
         """Declaration that is True or False; False where it is missing."""
-        value = self.attribute(what)
-        if not isinstance(value, bool | None):
-            raise self._expected(what, "True or False", value)
-        return bool(value)
+        return bool(self._of_kind(what, bool, "True or False"))
 
     def noise(self) -> float:
         """Noise that entries of rotations may have; 0 where it is not declared."""
-        value = self.attribute("noise")
-        if value is None:
-            return 0.0
-        if not isinstance(value, int | float) or not 0 <= value <= 1e-5:
-            raise self._expected("noise", "a number from 0 to 1e-5", value)
+        expected = "a number from 0 to 1e-5"
+        value = self._of_kind("noise", int | float, expected) or 0.0
+        if not 0 <= value <= 1e-5:
+            raise self._expected("noise", expected, value)
         return float(value)
 
     def pastes(self) -> dict[str, str]:
         """Python texts that call the functions, by their names."""
-        value = self.attribute("paste")
-        if not isinstance(value, Mapping | None):
-            raise self._expected("paste", "a text for each function", value)
-        return {str(name): str(text) for name, text in (value or {}).items()}
+        texts = self._of_kind("paste", Mapping, "a text for each function") or {}
+        return {str(name): str(text) for name, text in texts.items()}
 
     def arm(self) -> Chain | None:
         """The one arm that fk and jacobian are of, if it is declared."""
-        value = self.attribute("arm")
-        if not isinstance(value, Chain | None):
-            raise self._expected("arm", "a poekin.Chain", value)
-        return value
+        return self._of_kind("arm", Chain, "a poekin.Chain")
 
     def check_parameters(
         self,
@@ -91,6 +82,18 @@ class Declarations(NamedTuple):
                 raise InputError(
                     f"{self.title}: {name}: expected parameters (self, {expected}), got none"
                 ) from None
+
+    def _of_kind(
+        self,
+        what: str,
+        kind: Any,
+        expected: str,
+    ) -> Any:
+        """Declaration of a kind; None where it is missing."""
+        value = self.attribute(what)
+        if not isinstance(value, kind | None):
+            raise self._expected(what, expected, value)
+        return value
 
     def _expected(
         self,
