@@ -13,7 +13,7 @@ import numpy as np
 from poekin.testing.conform.subjects.subject import printed
 
 from .. import peers
-from ..cases.accuracy_peers import TEXTS
+from .exp_log_texts import TEXTS
 
 NAMES = {"exp_so3": "so3_exp", "log_so3": "so3_log", "exp_se3": "exp", "log_se3": "log"}
 
