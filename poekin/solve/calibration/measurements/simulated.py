@@ -19,7 +19,7 @@ from ....results import Result
 from ..model.error_model import ErrorModel
 from .data import KINDS
 from .measurement import Measurement, MeasurementKind
-from .points import Distances, Points, parse_points, point_at, points_at
+from .points import Distances, PointFrame, Points, parse_points, point_at, points_at
 from .poses import EyeInHand, EyeToHand, Poses
 
 GROSS_TURN = (0.1, 1.0)
@@ -167,31 +167,30 @@ def simulated(  # noqa: PLR0913 - options by keyword
             "outliers: expected a part of the measurements, 0 <= outliers < 1, got "
             f"{safe_repr(outliers)}"
         )
-    body = read_only(parse_points(points))
+    body = parse_points(points)
+    if kind == "distances":
+        body = body[:1]
     for_arm, for_frames, for_errors, for_outliers = (
         np.random.default_rng([seed, part]) for part in range(4)
     )
     model = ErrorModel(chain, ("screws", "home"), None)
     sizes = {"rad": tilt, "m": shift}
-    of_parameters = [sizes[parameter.unit] for parameter in model.parameters]
-    p = np.array(of_parameters, float)
+    p = np.array([sizes[parameter.unit] for parameter in model.parameters], float)
     p *= for_arm.normal(size=len(p))
     truth = model.chain(p)
     q = _readings(chain, q, int(n), for_arm)
     gross = np.zeros(n, bool)
-    n_gross = round(outliers * n)
-    shuffled = for_outliers.permutation(n)
-    gross[shuffled[:n_gross]] = True
+    gross[for_outliers.permutation(n)[: round(outliers * n)]] = True
     sensor = _Sensor(chain.reach, deviations, for_errors, for_outliers, gross)
     frames = _random_frames(for_frames, chain.reach)
-    made = _measure(kind, truth.fk(q), frames, body, unknown, sensor)
+    measured = _measure(kind, truth.fk(q), frames, body, unknown, sensor)
     return Simulated(
         truth=truth,
         parameters=read_only(p),
         q=read_only(q),
-        measurements=made.measurements,
-        frames=made.frames,
-        points=made.points,
+        measurements=measured,
+        frames={frame.name: frames.named(frame.name) for frame in measured.unknown_frames},
+        points=None if measured.angular else read_only(body),
         outliers=read_only(gross),
     )
 
@@ -206,13 +205,13 @@ class _Frames(NamedTuple):
     Z: Array
     centre: Array
 
-
-class _Made(NamedTuple):
-    """Measurements, their unknown frames by name, and the points of the tool, if any."""
-
-    measurements: Measurement
-    frames: dict[str, Array]
-    points: Array | None = None
+    def named(self, name: str) -> Array:
+        """The frame or point that measurements call so."""
+        if name == "centre":
+            return self.centre
+        if name.startswith("T_base"):
+            return self.X
+        return self.Z
 
 
 def _measure(
@@ -222,42 +221,27 @@ def _measure(
     points: Array,
     unknown: bool,
     sensor: _Sensor,
-) -> _Made:
+) -> Measurement:
     """Measurements of this kind at the true poses T (N, 4, 4)."""
     X, Z, centre = frames
     if kind == "poses":
-        measured = Poses(sensor.poses(T), sensor.covariance(3, 3))
-        return _Made(measured, {})
+        return Poses(sensor.poses(T), sensor.covariance(3, 3))
     if kind in _HAND_EYE:
         seen = sensor.poses(se3.inverse(X) @ T @ Z)
-        measured = _HAND_EYE[kind](seen, sensor.covariance(3, 3))
-        hidden = dict(zip(measured.frames, (X, Z), strict=True))
-        return _Made(measured, hidden)
+        return _HAND_EYE[kind](seen, sensor.covariance(3, 3))
     if kind == "distances":
-        points = points[:1]
         d = sensor.distances(T, points[0], centre)
-        covariance = sensor.covariance(0, 1)
-        if unknown:
-            measured = Distances(d, None, points[0], covariance)
-            return _Made(measured, {"centre": centre}, points)
-        measured = Distances(d, centre, points[0], covariance)
-        return _Made(measured, {}, points)
-    covariance = sensor.covariance(0, points.size)
+        known = None if unknown else centre
+        return Distances(d, known, points[0], sensor.covariance(0, 1))
+    frame: PointFrame = "base"
     if unknown:
-        p = sensor.points(se3.inverse(X) @ T, points)
-        measured = Points(p, points, covariance, frame="unknown")
-        return _Made(measured, {"T_base_device": X}, points)
+        frame = "unknown"
+        T = se3.inverse(X) @ T
     p = sensor.points(T, points)
-    measured = Points(p, points, covariance)
-    return _Made(measured, {}, points)
+    return Points(p, points, sensor.covariance(0, points.size), frame=frame)
 
 
-def _readings(
-    chain: Chain,
-    q: Any,
-    n: int,
-    rng: np.random.Generator,
-) -> Array:
+def _readings(chain: Chain, q: Any, n: int, rng: np.random.Generator) -> Array:
     if q is None:
         return chain.random(rng, n)
     q = coordinates(q, chain.q_names).copy()
@@ -266,8 +250,7 @@ def _readings(
     return q
 
 
-@dataclass(frozen=True, eq=False)
-class _Sensor:
+class _Sensor(NamedTuple):
     """A sensor that measures with noise, and grossly wrong in some rows."""
 
     reach: float
@@ -324,11 +307,7 @@ class _Sensor:
     def _drawn(self, sigma: float, shape: tuple[int, ...]) -> Array:
         return sigma * self.rng.normal(size=shape)
 
-    def _gross_vectors(
-        self,
-        bounds: tuple[float, float],
-        unit: float = 1.0,
-    ) -> Array:
+    def _gross_vectors(self, bounds: tuple[float, float], unit: float = 1.0) -> Array:
         count = int(self.gross.sum())
         sizes = self.outlier_rng.uniform(*bounds, (count, 1))
         return unit * sizes * _directions(self.outlier_rng, count)
@@ -345,24 +324,15 @@ def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
     does not come to.
     """
     angles = rng.uniform(0.5, 2.5, (2, 1))
-    turns = angles * _directions(rng, 2)
+    turns = so3.exp(angles * _directions(rng, 2))
     directions = _directions(rng, 3)
-    X, Z = (se3.exp([*turn, 0.0, 0.0, 0.0]) for turn in turns)
-    X[:3, 3] = 0.7 * reach * directions[0]
-    Z[:3, 3] = 0.1 * reach * directions[1]
+    X = se3.pose(turns[0], 0.7 * reach * directions[0])
+    Z = se3.pose(turns[1], 0.1 * reach * directions[1])
     centre = 2.0 * reach * directions[2]
-    return _Frames(
-        read_only(X),
-        read_only(Z),
-        read_only(centre),
-    )
+    return _Frames(read_only(X), read_only(Z), read_only(centre))
 
 
-def _deviations(
-    tilt: Any,
-    shift: Any,
-    noise: Any,
-) -> tuple[float, float]:
+def _deviations(tilt: Any, shift: Any, noise: Any) -> tuple[float, float]:
     """The noise as two numbers. Raises: InputError, ShapeError, of the others too."""
     sizes = numbers(noise, "noise")
     if sizes.shape != (2,):
@@ -370,12 +340,7 @@ def _deviations(
             f"noise: expected two standard deviations, (rad, m), got {safe_repr(noise)}"
         )
     turn, place = sizes.tolist()
-    named = {
-        "tilt": tilt,
-        "shift": shift,
-        "noise[0]": turn,
-        "noise[1]": place,
-    }
+    named = {"tilt": tilt, "shift": shift, "noise[0]": turn, "noise[1]": place}
     for name, value in named.items():
         if numbers(value, name).shape != () or not 0 <= value < np.inf:
             raise InputError(

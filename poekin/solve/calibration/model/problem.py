@@ -13,7 +13,7 @@ from ....groups import se3
 from ....groups.arrays import Array
 from ....model.checks import read_only
 from ..measurements.measurement import Measurement, Rows, rows_of
-from .error_model import ErrorModel, PosesAndTwists
+from .error_model import ErrorModel
 from .last_result import LastResult
 from .parameters import frame_parameters
 from .residuals import Residuals, residuals
@@ -43,14 +43,11 @@ class Problem:
         self.model = model
         self.q = q
         self.sets = tuple(sets)
-        count = len(q)
-        self.rows = [rows_of(s, count) for s in self.sets]
-        numbers = range(len(self.sets))
-        self._own = [_frame_names(k, self.sets) for k in numbers]
+        self.rows = [rows_of(s, len(q)) for s in self.sets]
+        self._own = [_frame_names(k, self.sets) for k in range(len(self.sets))]
         named = list(model.parameters)
         self._parts: dict[str, slice] = {}
-        pairs = zip(self.sets, self._own, strict=True)
-        for s, own in pairs:
+        for s, own in zip(self.sets, self._own, strict=True):
             for name, frame in zip(own, s.unknown_frames, strict=True):
                 if name not in self._parts:
                     begin = len(named)
@@ -69,15 +66,12 @@ class Problem:
         """Initial guesses of the unknown frames: of those that sets share, by the largest set."""
         T = self.model.nominal.fk(self.q)
         found: dict[str, Array] = {}
-        largest_first = sorted(
-            zip(self.sets, self._own, self.rows, strict=True),
-            key=lambda part: -len(part[0]),
-        )
-        for s, own, rows in largest_first:
-            known = []
-            for name, unknown in zip(own, s.unknown_frames, strict=True):
-                guess = found.get(name, unknown.guess)
-                known.append(unknown._replace(guess=guess))
+        parts = zip(self.sets, self._own, self.rows, strict=True)
+        for s, own, rows in sorted(parts, key=lambda part: -len(part[0])):
+            known = [
+                unknown._replace(guess=found.get(name, unknown.guess))
+                for name, unknown in zip(own, s.unknown_frames, strict=True)
+            ]
             guesses = s.with_unknown_frames(known).guesses(T[rows])
             found |= dict(zip(own, guesses, strict=True))
         return [found[name] for name in self.frame_names]
@@ -99,11 +93,13 @@ class Problem:
 
     def frame_values(self, p: Array) -> dict[str, Array]:
         """The unknown frames (4, 4) and points (3,) at p, by name."""
-        values = {}
         pairs = zip(self.initial_frames, self._parts.items(), strict=True)
-        for frame, (name, part) in pairs:
-            values[name] = _moved(frame, p[part])
-        return values
+        return {name: _moved(frame, p[part]) for frame, (name, part) in pairs}
+
+    def _frames_of_sets(self, p: Array) -> list[list[Array]]:
+        """The unknown frames of each set at p."""
+        values = self.frame_values(p)
+        return [[values[name] for name in own] for own in self._own]
 
     def residuals(self, p: Array) -> Residuals:
         """Residuals of all measurements."""
@@ -114,66 +110,45 @@ class Problem:
         return self._last_errors(p.tobytes(), lambda: self._errors(p))
 
     def _errors(self, p: Array) -> list[Array]:
-        of_model = p[: self.model_size]
-        T = self.model.poses(of_model, self.q)
-        frames = self.frame_values(p)
-        found = []
-        parts = zip(self.sets, self.rows, self._own, strict=True)
-        for s, rows, own in parts:
-            mine = [frames[name] for name in own]
-            errors = s.errors(T[rows], mine)
-            found.append(read_only(errors))
-        return found
+        T = self.model.poses(p[: self.model_size], self.q)
+        parts = zip(self.sets, self.rows, self._frames_of_sets(p), strict=True)
+        return [read_only(s.errors(T[rows], frames)) for s, rows, frames in parts]
 
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their Jacobian."""
         errors = self.errors(p)
-        moved = self._moved(p)
-        jacobians = self._jacobians(p, moved, errors)
+        jacobians = self._jacobians(p, self.q, self.rows, errors)
         return list(map(Linear, errors, jacobians))
 
-    def _moved(self, p: Array) -> list[PosesAndTwists]:
-        """Poses and their twists at the readings of each set."""
-        of_model = p[: self.model_size]
-        T, D = self.model.poses_and_twists(of_model, self.q)
-        return [PosesAndTwists(T[rows], D[rows]) for rows in self.rows]
-
-    def jacobians(
-        self,
-        p: Array,
-        q: Array | None = None,
-    ) -> list[Array]:
+    def jacobians(self, p: Array, q: Array | None = None) -> list[Array]:
         """The Jacobian (N, d, P) of each set as if the model were right: no measured value is used.
 
         q (K, m): other readings, at each of which every set measures.
         """
+        rows = self.rows
         if q is None:
-            moved = self._moved(p)
+            q = self.q
         else:
-            of_model = p[: self.model_size]
-            everywhere = self.model.poses_and_twists(of_model, q)
-            moved = [everywhere] * len(self.sets)
-        errors = []
-        for (T, _), s in zip(moved, self.sets, strict=True):
-            zeros = np.zeros((len(T), s.width))
-            errors.append(zeros)
-        return self._jacobians(p, moved, errors)
+            rows = [np.arange(len(q))] * len(self.sets)
+        zeros = [np.zeros((len(r), s.width)) for r, s in zip(rows, self.sets, strict=True)]
+        return self._jacobians(p, q, rows, zeros)
 
     def _jacobians(
         self,
         p: Array,
-        moved: Sequence[PosesAndTwists],
+        q: Array,
+        rows: Sequence[Rows],
         errors: Sequence[Array],
     ) -> list[Array]:
-        frames = self.frame_values(p)
+        """The Jacobian (N, d, P) of the errors of each set, measured at these rows of q."""
+        T, D = self.model.poses_and_twists(p[: self.model_size], q)
         found = []
-        parts = zip(self.sets, self._own, moved, errors, strict=True)
-        for s, own, (T, D), e in parts:
-            mine = [frames[name] for name in own]
-            of_model, of_frames = s.jacobian(T, mine, e, D)
-            jacobian = np.zeros((*e.shape, self.size))
+        for k, frames in enumerate(self._frames_of_sets(p)):
+            here = rows[k]
+            of_model, of_frames = self.sets[k].jacobian(T[here], frames, errors[k], D[here])
+            jacobian = np.zeros((*errors[k].shape, self.size))
             jacobian[..., : self.model_size] = of_model
-            for name, of_frame in zip(own, of_frames, strict=True):
+            for name, of_frame in zip(self._own[k], of_frames, strict=True):
                 part = self._parts[name]
                 if of_frame.shape[2] == 6:
                     # at T e^eta with eta != 0 the frame moves by J_r(eta) d eta
@@ -191,12 +166,7 @@ class Problem:
             kept = np.flatnonzero(new[rows] >= 0)
             kept_rows = new[rows[kept]]
             sets.append(s.subset(kept).with_rows(kept_rows))
-        return Problem(
-            self.model,
-            self.q[chosen],
-            sets,
-            self.initial_frames,
-        )
+        return Problem(self.model, self.q[chosen], sets, self.initial_frames)
 
 
 def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:
