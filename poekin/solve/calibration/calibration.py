@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any, overload
+from typing import overload
 
 from ...analysis.compare.compare import compare
 from ...analysis.compare.comparison import Comparison
@@ -13,10 +13,9 @@ from ...formats.dh.from_chain import FromChain
 from ...formats.relink import relinked
 from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import Into, to_urdf
-from ...groups.arrays import Array
 from ...model.robot import Robot
 from .report import document, html_report, summary, toml_io
-from .result import CalibrationData, pose_covariance
+from .result import CalibrationData
 
 
 class Calibration(CalibrationData):
@@ -59,44 +58,6 @@ class Calibration(CalibrationData):
         The nominal arm is off by as much, as its base is elsewhere, or residuals are smaller than a
         covariance.
     """
-
-    def pose_covariance(self, q: Any) -> Array:
-        """Covariance of the calibrated arm's pose, C_T = D C_p Dᵀ.
-
-        Parameters
-        ----------
-        q : (..., m) array_like or dict
-            Configurations, rad or m.
-
-        Returns
-        -------
-        C : (..., 6, 6) ndarray
-            Covariance of the tip's rotation vector and position errors, both in base axes, rad² and
-            m². It knows what was fitted only: neither what was fixed, nor joints that bend.
-
-        Raises
-        ------
-        ShapeError, UnknownName, InputError
-            If q does not fit the arm.
-
-        Notes
-        -----
-        Accuracy: first order in the errors of the parameters. Source: propagation of covariance
-        through `Chain.screw_derivatives`.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import poekin as pk
-        >>> arm = pk.load("ur5").chain()
-        >>> made = pk.calibration.simulated(arm, 30, seed=2)
-        >>> found = pk.calibrate(arm, made.q, made.measurements, folds=0)
-        >>> C = found.pose_covariance(np.zeros(6))
-        >>> deviations = np.sqrt(np.diag(C)[3:])  # of the tip's position, m
-        >>> bool((deviations < 1e-3).all())
-        True
-        """
-        return pose_covariance(self, q)
 
     def compare(self) -> Comparison:
         """Comparison of the nominal and the calibrated arm, joint by joint.

@@ -11,6 +11,7 @@ from ....checks import choice, is_whole, whole
 from ....errors import InputError, ShapeError, quote, safe_repr
 from ....groups.arrays import Array
 from ....model.chain import Chain
+from ....model.checks import finite
 from ....model.coordinates import coordinates
 from ....model.kinematics.arm import Arm, chain_of
 from ....results import Progress
@@ -162,19 +163,18 @@ def _candidates(chain: Chain, candidates: Any, seed: int) -> Array:
             f"candidates: expected configurations (K, {chain.dof}), or how many to draw, got "
             f"{safe_repr(candidates)}"
         )
+    q = finite(q, "candidates")
     lower, upper = chain.limits.T
-    bad = ~(np.isfinite(q) & (q >= lower) & (q <= upper))
-    if bad.any():
-        row, k = np.argwhere(bad)[0].tolist()
-        fault = "is no finite number"
-        if np.isfinite(q[row, k]):
-            fault = f"is outside its limits {lower[k]:.6g} to {upper[k]:.6g}"
+    bad = (q < lower) | (q > upper)
+    for row, k in np.argwhere(bad).tolist():
         many = int(bad.any(axis=1).sum())
         others = ""
         if many > 1:
             others = f"; {many} of the {len(q)} candidates cannot be taken"
-        name = quote(chain.q_names[k])
-        raise InputError(f"candidates[{row}]: {name} = {q[row, k]:.6g} {fault}{others}")
+        raise InputError(
+            f"candidates[{row}]: {quote(chain.q_names[k])} = {q[row, k]:.6g} is outside its limits "
+            f"{lower[k]:.6g} to {upper[k]:.6g}{others}"
+        )
     return q
 
 

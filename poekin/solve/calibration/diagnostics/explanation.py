@@ -104,9 +104,8 @@ def explain(problem: Problem, before: Residuals, after: Residuals) -> Remarks:
         found = explained(problem, k)
         if found is None or far(found.left, arm.reach):
             # of lengths without an initial guess of where they are from nothing more is known
-            known = found is not None or s.angular
             why = ""
-            if known:
+            if found is not None or s.angular:
                 why = ", and no other base and tool explain it"
             warnings.append(
                 f"{head}{why}: is it this arm, in its order of joints, are lengths in m and angles "

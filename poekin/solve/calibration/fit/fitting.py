@@ -82,10 +82,9 @@ def _noise(
     even: float = EVEN,
 ) -> Noise:
     """Noise by the errors at p, to which `free` parameters were fitted."""
-    robust = name != "linear"
     reach = problem.model.nominal.reach
     errors = problem.errors(p)
-    estimates = estimate_noise(problem.sets, errors, free, robust, reach, even)
+    estimates = estimate_noise(problem.sets, errors, free, name != "linear", reach, even)
     return Noise(problem.sets, estimates)
 
 

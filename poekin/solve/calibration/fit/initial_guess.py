@@ -8,6 +8,7 @@ The arm is taken as it is described, so a guess is as exact as that is true.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -143,21 +144,12 @@ def centre(p: Array, d: Array) -> Array:
         4,
         floor,
     )
-    nearer = reweighted(
-        lambda w: _nearer(p, d, w, linear.value),
-        count,
-        4,
-        floor,
-    )
-    best = _of_fours(p, d)
-    other = reweighted(
-        lambda w: _nearer(p, d, w, best.value),
-        count,
-        4,
-        floor,
-        best,
-    )
-    found = min(linear, nearer, other, key=lambda guess: guess.median)
+    of_fours = _of_fours(p, d)
+    every = [linear]
+    for start, first in ((linear.value, None), (of_fours.value, of_fours)):
+        nearer = partial(_nearer, p, d, start)
+        every.append(reweighted(nearer, count, 4, floor, first))
+    found = min(every, key=lambda guess: guess.median)
     kept = p[found.kept]
     sizes = extents(kept - kept.mean(axis=0))
     if is_flat(sizes, 2, found.median):
@@ -325,8 +317,8 @@ def _of_fours(p: Array, d: Array) -> Weighted[Array]:
 def _nearer(
     p: Array,
     d: Array,
-    w: Array,
     c: Array,
+    w: Array,
 ) -> Weighted[Array]:
     """Gauss-Newton steps from c: the distance to it changes along u, the unit vector from a point
     to c.

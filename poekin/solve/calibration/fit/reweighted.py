@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....groups.arrays import Array
+from ..model.last_result import LastResult
 
 ROUNDS = 20
 TRIMS = 3
@@ -54,14 +55,20 @@ def reweighted(
     solution that says the first weights, of all rows where it is left out.
     Source of the weights: Huber 1964, with the median of the residuals as his constant.
     """
-    found = first or solve(np.ones(count))
+    last = LastResult[Weighted[Value]]()
+
+    def solved(weights: Array) -> Weighted[Value]:
+        # weights that have settled, as those of exact rows do at once, have been solved for
+        return last(weights.tobytes(), lambda: solve(weights))
+
+    found = first or solved(np.ones(count))
     for _ in range(ROUNDS):
         scale = max(found.median, floor)
-        found = solve(scale / np.maximum(found.residuals, scale))
+        found = solved(scale / np.maximum(found.residuals, scale))
     kept = np.ones(count, bool)
     for _ in range(TRIMS):
         r = found.residuals
         least = float(np.partition(r, need - 1)[need - 1])
         kept = r <= max(GROSS * found.median, least, floor)
-        found = solve(kept.astype(float))
+        found = solved(kept.astype(float))
     return Reweighted(found.value, found.median, kept)

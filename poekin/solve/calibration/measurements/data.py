@@ -28,11 +28,12 @@ from ....formats.text import csv_rows
 from ....formats.text.atomic_write import write_whole
 from ....groups.arrays import Array
 from ....model.chain import Chain
+from ....model.checks import finite
 from ....model.coordinates import coordinates
 from . import columns
 from .columns import Layout
 from .header import NO_HEADER, SI, Convention, read_header
-from .measurement import Measurement, MeasurementKind, finite_rows, rows_of
+from .measurement import Measurement, MeasurementKind, rows_of
 from .points import Distances, Points
 from .poses import EyeInHand, EyeToHand, Poses
 
@@ -225,7 +226,7 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
         raise ShapeError(
             f"q: expected shape (N, {chain.dof}) with a row for each of {len(values)}, got {q.shape}"
         )
-    q = finite_rows(q, "q")
+    q = finite(q, "q")
     names = chain.q_names
     numbered = columns.numbered(chain.dof)
     # names that another reader, or this one, would take for something else

@@ -9,6 +9,7 @@ import numpy as np
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups.arrays import Array
 from ....model.chain import Chain
+from ....model.checks import finite
 from ....model.coordinates import coordinates
 from .measurement import Measurement
 from .points import Points
@@ -17,7 +18,7 @@ from .poses import Poses
 
 def parse_readings(chain: Chain, q: object) -> Array:
     """q (N, m), finite, N > 0. Raises: ShapeError with the number of joints; InputError with the
-    row not finite.
+    number not finite.
     """
     array = coordinates(q, chain.q_names)
     if array.ndim != 2:
@@ -26,10 +27,7 @@ def parse_readings(chain: Chain, q: object) -> Array:
         )
     if not len(array):
         raise InputError("q: expected readings, got none")
-    good = np.isfinite(array).all(1)
-    for row in np.flatnonzero(~good):
-        raise InputError(f"q[{row}]: expected finite numbers, got {array[row].tolist()}")
-    return array
+    return finite(array, "q")
 
 
 def parse_measurements(measurements: Any, count: int) -> list[Measurement]:

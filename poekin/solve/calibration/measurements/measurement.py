@@ -8,10 +8,10 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ....errors import InputError, PoseError, ShapeError, safe_repr
+from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3
-from ....groups.arrays import Array, numbers, poses
-from ....model.checks import read_only
+from ....groups.arrays import Array, poses
+from ....model.checks import finite, one_pose, read_only
 
 Rows = NDArray[np.integer]
 MeasurementKind = Literal["poses", "eye-in-hand", "eye-to-hand", "points", "distances"]
@@ -293,18 +293,9 @@ def parse_rows(rows: ArrayLike | None, count: int) -> Rows | None:
     return array.astype(np.intp)
 
 
-def finite_rows(values: ArrayLike, what: str) -> Array:
-    """A copy of the values (N, ...), all finite. Raises: InputError with the first row that is not."""
-    array = numbers(values, what).copy()
-    good = np.isfinite(array).all(axis=tuple(range(1, array.ndim)))
-    for row in np.flatnonzero(~good):
-        raise InputError(f"{what}[{row}]: expected finite numbers, got NaN or infinity")
-    return array
-
-
 def pose_rows(T: ArrayLike, what: str) -> Array:
     """Poses (N, 4, 4), finite."""
-    array = finite_rows(T, what)
+    array = finite(T, what)
     if array.ndim != 3:
         raise ShapeError(f"{what}: expected poses (N, 4, 4), got shape {array.shape}")
     return poses(array, what)
@@ -333,10 +324,7 @@ def make_unknown_frame(name: str, said: ArrayLike | str | None) -> UnknownFrame:
         if not said:
             raise InputError(f"{name}: expected a pose, a name or None, got ''")
         return UnknownFrame(name, 6, shared=said)
-    array = poses(said, name)
-    if array.shape != (4, 4) or not np.isfinite(array).all():
-        raise PoseError(f"{name}: expected one finite pose (4, 4) or None, got shape {array.shape}")
-    return UnknownFrame(name, 6, array.copy())
+    return UnknownFrame(name, 6, one_pose(said, name))
 
 
 def covariances(
@@ -351,7 +339,7 @@ def covariances(
     """
     if values is None:
         return None
-    C = numbers(values, f"{what}: covariance")
+    C = finite(values, f"{what}: covariance")
     if width == 1 and C.shape in ((), (count,)):
         C = C.reshape(-1, 1, 1)
     if C.shape not in ((width, width), (count, width, width), (1, width, width)):
@@ -361,17 +349,13 @@ def covariances(
         )
     C = C.reshape(-1, width, width)
     for k, one in enumerate(C):
-        which = ""
-        if len(C) > 1:
-            which = f"[{k}]"
+        which = f"[{k}]" if len(C) > 1 else ""
         _check_covariance(one, f"{what}: covariance{which}")
     return np.broadcast_to(C, (count, width, width)).copy()
 
 
 def _check_covariance(C: Array, where: str) -> None:
-    """Raises: InputError for a matrix that is not finite, symmetric and positive definite."""
-    if not np.isfinite(C).all():
-        raise InputError(f"{where}: expected finite numbers")
+    """Raises: InputError for a matrix that is not symmetric and positive definite."""
     variances = np.diag(C)
     if not (variances > 0).all():
         raise InputError(

@@ -12,8 +12,9 @@ from ....checks import choice
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
+from ....model.checks import finite
 from ..fit import initial_guess
-from .measurement import Derivatives, Frames, Measurement, UnknownFrame, finite_rows, seen_from
+from .measurement import Derivatives, Frames, Measurement, UnknownFrame, seen_from
 
 PointFrame = Literal["base", "unknown"]
 
@@ -41,24 +42,25 @@ def point_at(T: Array, point: Array) -> Array:
 
 
 def parse_points(points: ArrayLike) -> Array:
-    """Points of the tool (k, 3) in the tip frame, of one (3,) or several. Raises: ShapeError."""
-    body = np.atleast_2d(numbers(points, "points"))
-    rows_of_three = body.ndim == 2 and body.shape[1] == 3
-    if not rows_of_three or not len(body) or not np.isfinite(body).all():
+    """Points of the tool (k, 3) in the tip frame, of one (3,) or several. Raises: InputError,
+    ShapeError.
+    """
+    body = np.atleast_2d(finite(points, "points"))
+    if body.ndim != 2 or body.shape[1] != 3 or not len(body):
         raise ShapeError(
-            f"points: expected finite (3,) or (k, 3) in the tip frame, got {safe_repr(points)}"
+            f"points: expected (3,) or (k, 3) in the tip frame, got {safe_repr(points)}"
         )
-    return body.copy()
+    return body
 
 
 def _position(value: ArrayLike | None, name: str) -> Array | None:
-    """Three finite numbers, or None. Raises: ShapeError."""
+    """Three finite numbers, or None. Raises: InputError, ShapeError."""
     if value is None:
         return None
-    position = numbers(value, name)
-    if position.shape != (3,) or not np.isfinite(position).all():
-        raise ShapeError(f"{name}: expected three finite numbers, got {safe_repr(value)}")
-    return position.copy()
+    position = finite(value, name)
+    if position.shape != (3,):
+        raise ShapeError(f"{name}: expected three numbers, got {safe_repr(value)}")
+    return position
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +112,7 @@ class Points(Measurement):
     _measured = "p"
 
     def __post_init__(self) -> None:
-        p = finite_rows(self.p, "p")
+        p = finite(self.p, "p")
         points = parse_points(self.points)
         k = len(points)
         if p.ndim == 2:
@@ -208,7 +210,7 @@ class Distances(Measurement):
     _measured = "d"
 
     def __post_init__(self) -> None:
-        d = finite_rows(self.d, "d")
+        d = finite(self.d, "d")
         if d.ndim != 1:
             raise ShapeError(f"d: expected distances (N,), got shape {d.shape}")
         for row in np.flatnonzero(d <= 0):

@@ -13,7 +13,7 @@ from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
 from ....model.chain import Chain
-from ....model.checks import read_only
+from ....model.checks import finite, read_only
 from ....model.coordinates import coordinates
 from ....results import Result
 from ..model.error_model import ErrorModel
@@ -244,9 +244,9 @@ def _measure(
 def _readings(chain: Chain, q: Any, n: int, rng: np.random.Generator) -> Array:
     if q is None:
         return chain.random(rng, n)
-    q = coordinates(q, chain.q_names).copy()
-    if q.shape != (n, chain.dof) or not np.isfinite(q).all():
-        raise ShapeError(f"q: expected finite ({n}, {chain.dof}), got shape {q.shape}")
+    q = finite(coordinates(q, chain.q_names), "q")
+    if q.shape != (n, chain.dof):
+        raise ShapeError(f"q: expected shape ({n}, {chain.dof}), got {q.shape}")
     return q
 
 

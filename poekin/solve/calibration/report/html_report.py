@@ -15,7 +15,7 @@ from ....groups.arrays import Array
 from ... import html_page
 from ...html_page import caption, figure, paragraph, text
 from ..model.residuals import Residuals, largest, median, rms
-from ..result import CalibrationData, pose_covariance
+from ..result import CalibrationData
 from . import changes, plots
 from .changes import milli
 
@@ -182,7 +182,7 @@ def _difference(j: JointComparison) -> float:
 
 
 def _uncertainty(found: CalibrationData) -> Iterator[str]:
-    C = pose_covariance(found, found.nominal.random(0, CONFIGURATIONS))
+    C = found.pose_covariance(found.nominal.random(0, CONFIGURATIONS))
     angle = _deviation(C[:, :3, :3])
     length = _deviation(C[:, 3:, 3:])
     lengths, angles = ([milli(median(x)), milli(largest(x))] for x in (length, angle))

@@ -83,7 +83,7 @@ def _distributions(
         x, share = _shares(values)
         axes.plot(np.maximum(x, _LEAST), share, label=name, **style)
     axes.set(xscale="log", xlabel=label)
-    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.xaxis.set_major_formatter(_figure)
     axes.axhline(50, color=PALE, linewidth=0.8)
     _plain(axes, "both")
 
@@ -190,26 +190,26 @@ def _course(
     y = np.array(values, float)
     y[y <= 0] = np.nan
     axes.plot(number, y, color=PALE, linewidth=0.8)
-    axes.plot(
-        number[~damped],
-        y[~damped],
-        ".",
-        color=INK,
-        markersize=5,
-    )
-    axes.plot(
-        number[damped],
-        y[damped],
-        "o",
-        color=INK,
-        markersize=4,
-        markerfacecolor="white",
-    )
+    for chosen, face in ((~damped, INK), (damped, "white")):
+        axes.plot(
+            number[chosen],
+            y[chosen],
+            "o",
+            color=INK,
+            markersize=4,
+            markerfacecolor=face,
+        )
     if np.isfinite(y).any():
         axes.set_yscale("log")
+        axes.yaxis.set_major_formatter(_figure)
     axes.set(xlabel="step", ylabel=label)
     axes.xaxis.get_major_locator().set_params(integer=True)
     _plain(axes, "y")
+
+
+def _figure(value: float, _: int) -> str:
+    """A tick's label: ten times as fast as Matplotlib's powers of ten, which are formulas."""
+    return f"{value:g}"
 
 
 def _legend(figure: Any, axes: Any, columns: int) -> None:

@@ -100,10 +100,10 @@ def test_the_steps_from_there_on_go_to_the_least_squares_of_the_distances():
     rng = np.random.default_rng(2)
     p, w, c = rng.normal(size=(12, 3)), rng.uniform(0.1, 1, 12), np.array([0.5, -2, 1])
     d = np.linalg.norm(p - c, axis=1) + 0.01 * rng.normal(size=12)
-    found, off = _nearer(p, d, w, c + 0.1)
+    found, off = _nearer(p, d, c + 0.1, w)
     least(lambda c: float(w @ (np.linalg.norm(p - c, axis=1) - d) ** 2), found)
     assert off == pytest.approx(np.abs(np.linalg.norm(p - found, axis=1) - d))
-    assert _nearer(p, np.linalg.norm(p - p[2], axis=1), w, p[2].copy())[0] == pytest.approx(p[2])
+    assert _nearer(p, np.linalg.norm(p - p[2], axis=1), p[2].copy(), w)[0] == pytest.approx(p[2])
 
 
 def test_a_rigid_fit_counts_each_point_by_its_weight():

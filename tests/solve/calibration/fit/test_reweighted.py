@@ -42,6 +42,19 @@ def test_what_is_rounding_is_kept_whatever_the_median_is():
 
     kept = reweighted(solve, 6, 1, 1e-13).kept
     assert kept.tolist() == [True] * 5 + [False]
-    assert len(weights) == 1 + ROUNDS + TRIMS
+    assert len(weights) == 3  # weights that have settled are not solved for again
     assert weights[0].tolist() == [1.0] * 6
     assert weights[1] == pytest.approx([1, 1, 1, 1, 1, 0.1])
+
+
+def test_rows_that_take_turns_to_miss_are_solved_for_in_every_round():
+    weights = []
+
+    def solve(w):
+        weights.append(w)
+        residuals = np.ones(6)
+        residuals[len(weights) % 6] = 100.0
+        return Weighted(None, residuals)
+
+    reweighted(solve, 6, 1, 1e-13)
+    assert len(weights) == 1 + ROUNDS + TRIMS
