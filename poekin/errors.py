@@ -80,7 +80,8 @@ def escape_unprintable(
             return c
         return c.encode("unicode_escape").decode()
 
-    plain = "".join(map(shown, str(text)))
+    most = None if width is None else width + 1  # a character is shown as one at least
+    plain = "".join(map(shown, str(text)[:most]))
     if width is None or len(plain) <= width:
         return plain
     return plain[: width - 1] + "…"

@@ -124,8 +124,5 @@ def _ratio(a: float, b: float) -> float:
     """a / b, of metrics that are 0 or infinite where random choices leave something unobserved."""
     if a == b:
         return 1.0
-    if np.isinf(b):
-        return 0.0
-    if b == 0:
-        return float(np.inf)
-    return a / b
+    with np.errstate(divide="ignore"):
+        return float(np.divide(a, b))

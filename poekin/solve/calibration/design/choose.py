@@ -19,6 +19,7 @@ from ..diagnostics.identification import (
     RANK,
     identification_matrix,
     identify_directions,
+    row_space,
     scaled_jacobians,
 )
 from ..measurements.measurement import Measurement
@@ -127,9 +128,9 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
         raise InputError(
             f"choose_poses: such measurements identify none of the {problem.size} parameters anywhere"
         )
-    _, _, Vt = np.linalg.svd(qr_r(identification_matrix(problem)), full_matrices=False)
     # of each candidate (K, r, L), on the space that all of them together show
-    blocks = np.concatenate(scaled_jacobians(problem), axis=1) @ Vt[: identification.rank].T
+    seen = row_space(identification_matrix(problem)).basis
+    blocks = np.concatenate(scaled_jacobians(problem), axis=1) @ seen
     _enough(blocks, n)
     rows = exchange(blocks, n, criterion, progress)
     rng = np.random.default_rng((seed, 1))
@@ -217,12 +218,10 @@ def _enough(blocks: Array, n: int) -> None:
     """
     size = blocks.shape[2]
     most = min(len(blocks), max(n, size))
-    start = greedy(blocks, most)
+    start = np.array(greedy(blocks, most))
 
     def shows(count: int) -> bool:
-        J = blocks[start[:count]].reshape(-1, size)
-        s = np.linalg.svd(qr_r(J), compute_uv=False)
-        return len(s) == size and s[-1] > RANK * s[0]
+        return design_metrics(blocks, start[:count]).smallest > 0
 
     if not shows(n):
         needed = next(filter(shows, range(n, len(start))), len(start))

@@ -135,7 +135,11 @@ def design_state(search: Search, chosen: np.ndarray) -> DesignState:
     J = search.blocks[chosen].reshape(-1, size)
     N = J.T @ J
     worth = float(value(N, search.criterion, search.mean))
-    return DesignState(N, worth, *np.linalg.eigh(N))
+    return DesignState(
+        N,
+        worth,
+        *np.linalg.eigh(N),
+    )
 
 
 def best_exchange(

@@ -91,7 +91,7 @@ class Identification(Result):
         return "\n".join(lines)
 
 
-class _RowSpace(NamedTuple):
+class RowSpace(NamedTuple):
     """Singular values (k,) of a matrix, its rank, and an orthonormal basis (P, rank) of its rows."""
 
     singular_values: Array
@@ -99,6 +99,7 @@ class _RowSpace(NamedTuple):
 
     @property
     def rank(self) -> int:
+        """Number of directions in the basis."""
         return self.basis.shape[1]
 
 
@@ -193,7 +194,7 @@ def free_directions_at(
 ) -> Array:
     """Basis (P, k) as of `identify_directions` of what is identified at p, where a fit ended."""
     J = identification_matrix(problem, p=p)
-    seen = _row_space(np.concatenate([J, _prior_rows(problem, known)]), THERE)
+    seen = row_space(np.concatenate([J, _prior_rows(problem, known)]), THERE)
     return _free(problem, _complement(seen.basis))
 
 
@@ -214,13 +215,13 @@ def identify_directions(
         least = RANK
     prior = _prior_rows(problem, known)
     here = identification_matrix(problem, p=p)
-    observed = _row_space(np.concatenate([here, prior]), least)
+    observed = row_space(np.concatenate([here, prior]), least)
     identifiable = observed
     if observed.rank < problem.size:
         width = sum(s.width for s in problem.sets)
         q = _random_configurations(problem.model.nominal, math.ceil(3 * problem.size / width))
         anywhere = identification_matrix(problem, q, p)
-        identifiable = _row_space(np.concatenate([anywhere, prior]), least)
+        identifiable = row_space(np.concatenate([anywhere, prior]), least)
     unidentifiable = _complement(identifiable.basis)
     rest = _complement(observed.basis)
     lost = rest - unidentifiable @ (unidentifiable.T @ rest)
@@ -277,11 +278,11 @@ def _random_configurations(chain: Chain, count: int) -> Array:
     return np.random.default_rng(0).uniform(-half, half, (count, chain.dof))
 
 
-def _row_space(J: Array, least: float) -> _RowSpace:
+def row_space(J: Array, least: float = RANK) -> RowSpace:
     """Row space of J (M, P), by the singular values above `least` of the largest."""
     _, s, Vt = np.linalg.svd(qr_r(J), full_matrices=False)
     rank = int(np.sum(s > least * s[:1]))
-    return _RowSpace(s, Vt[:rank].T)
+    return RowSpace(s, Vt[:rank].T)
 
 
 def _complement(V: Array) -> Array:

@@ -84,7 +84,14 @@ def _noise(
     """Noise by the errors at p, to which `free` parameters were fitted."""
     reach = problem.model.nominal.reach
     errors = problem.errors(p)
-    estimates = estimate_noise(problem.sets, errors, free, name != "linear", reach, even)
+    estimates = estimate_noise(
+        problem.sets,
+        errors,
+        free,
+        name != "linear",
+        reach,
+        even,
+    )
     return Noise(problem.sets, estimates)
 
 

@@ -58,7 +58,7 @@ def hand_eye(A: Array, B: Array) -> tuple[Array, Array]:
     R_A = A[:, :3, :3]
     R_B = B[:, :3, :3]
     turned = reweighted(
-        lambda w: _rotations(R_A, R_B, w),
+        partial(_rotations, R_A, R_B),
         count,
         3,
         _ROUNDING,
@@ -102,7 +102,7 @@ def registration(a: Array, b: Array) -> Array:
         np.abs(b).max(),
     )
     found = reweighted(
-        lambda w: _rigid(a, b, w),
+        partial(_rigid, a, b),
         len(a),
         3,
         floor,
@@ -139,7 +139,7 @@ def centre(p: Array, d: Array) -> Array:
     spread = np.abs(from_mean).max()
     floor = _rounding(spread, np.median(d))
     linear = reweighted(
-        lambda w: _multilateral(p, d, w),
+        partial(_multilateral, p, d),
         count,
         4,
         floor,
@@ -172,14 +172,14 @@ def mean_pose(T: Array) -> Array:
     t = T[:, :3, 3]
     count = len(T)
     turned = reweighted(
-        lambda w: _mean_rotation(R, w),
+        partial(_mean_rotation, R),
         count,
         1,
         _ROUNDING,
     )
     floor = _rounding(np.abs(t).max())
     placed = reweighted(
-        lambda w: _mean_place(t, w),
+        partial(_mean_place, t),
         count,
         1,
         floor,

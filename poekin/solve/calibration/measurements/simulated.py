@@ -72,10 +72,8 @@ class Simulated(Result):
         return self._frame("T_tip")
 
     def _frame(self, beginning: str) -> Array | None:
-        for name, T in self.frames.items():
-            if name.startswith(beginning):
-                return T
-        return None
+        named = (T for name, T in self.frames.items() if name.startswith(beginning))
+        return next(named, None)
 
     def summary(self) -> str:
         """Number and kind of the measurements, and number of gross outliers, as text."""
@@ -181,9 +179,22 @@ def simulated(  # noqa: PLR0913 - options by keyword
     q = _readings(chain, q, int(n), for_arm)
     gross = np.zeros(n, bool)
     gross[for_outliers.permutation(n)[: round(outliers * n)]] = True
-    sensor = _Sensor(chain.reach, deviations, for_errors, for_outliers, gross)
+    sensor = _Sensor(
+        chain.reach,
+        deviations,
+        for_errors,
+        for_outliers,
+        gross,
+    )
     frames = _random_frames(for_frames, chain.reach)
-    measured = _measure(kind, truth.fk(q), frames, body, unknown, sensor)
+    measured = _measure(
+        kind,
+        truth.fk(q),
+        frames,
+        body,
+        unknown,
+        sensor,
+    )
     return Simulated(
         truth=truth,
         parameters=read_only(p),
@@ -232,16 +243,31 @@ def _measure(
     if kind == "distances":
         d = sensor.distances(T, points[0], centre)
         known = None if unknown else centre
-        return Distances(d, known, points[0], sensor.covariance(0, 1))
+        return Distances(
+            d,
+            known,
+            points[0],
+            sensor.covariance(0, 1),
+        )
     frame: PointFrame = "base"
     if unknown:
         frame = "unknown"
         T = se3.inverse(X) @ T
     p = sensor.points(T, points)
-    return Points(p, points, sensor.covariance(0, points.size), frame=frame)
+    return Points(
+        p,
+        points,
+        sensor.covariance(0, points.size),
+        frame=frame,
+    )
 
 
-def _readings(chain: Chain, q: Any, n: int, rng: np.random.Generator) -> Array:
+def _readings(
+    chain: Chain,
+    q: Any,
+    n: int,
+    rng: np.random.Generator,
+) -> Array:
     if q is None:
         return chain.random(rng, n)
     q = finite(coordinates(q, chain.q_names), "q")
@@ -307,7 +333,11 @@ class _Sensor(NamedTuple):
     def _drawn(self, sigma: float, shape: tuple[int, ...]) -> Array:
         return sigma * self.rng.normal(size=shape)
 
-    def _gross_vectors(self, bounds: tuple[float, float], unit: float = 1.0) -> Array:
+    def _gross_vectors(
+        self,
+        bounds: tuple[float, float],
+        unit: float = 1.0,
+    ) -> Array:
         count = int(self.gross.sum())
         sizes = self.outlier_rng.uniform(*bounds, (count, 1))
         return unit * sizes * _directions(self.outlier_rng, count)
@@ -329,10 +359,18 @@ def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
     X = se3.pose(turns[0], 0.7 * reach * directions[0])
     Z = se3.pose(turns[1], 0.1 * reach * directions[1])
     centre = 2.0 * reach * directions[2]
-    return _Frames(read_only(X), read_only(Z), read_only(centre))
+    return _Frames(
+        read_only(X),
+        read_only(Z),
+        read_only(centre),
+    )
 
 
-def _deviations(tilt: Any, shift: Any, noise: Any) -> tuple[float, float]:
+def _deviations(
+    tilt: Any,
+    shift: Any,
+    noise: Any,
+) -> tuple[float, float]:
     """The noise as two numbers. Raises: InputError, ShapeError, of the others too."""
     sizes = numbers(noise, "noise")
     if sizes.shape != (2,):
@@ -340,7 +378,12 @@ def _deviations(tilt: Any, shift: Any, noise: Any) -> tuple[float, float]:
             f"noise: expected two standard deviations, (rad, m), got {safe_repr(noise)}"
         )
     turn, place = sizes.tolist()
-    named = {"tilt": tilt, "shift": shift, "noise[0]": turn, "noise[1]": place}
+    named = {
+        "tilt": tilt,
+        "shift": shift,
+        "noise[0]": turn,
+        "noise[1]": place,
+    }
     for name, value in named.items():
         if numbers(value, name).shape != () or not 0 <= value < np.inf:
             raise InputError(

@@ -11,7 +11,7 @@ frame of the local form, so the numbers stay small.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import accumulate, pairwise
+from itertools import accumulate, compress, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -63,8 +63,7 @@ class ErrorModel:
         chosen = parse_joints(nominal, joints)
         self.nominal = nominal
         self.kinds = kinds
-        joint_names = np.array(nominal.joint_names, object)
-        self.moving = tuple(joint_names[chosen])
+        self.moving = tuple(compress(nominal.joint_names, chosen))
         self._free = free_parameters(nominal, kinds, chosen)
         # pose of each joint's z-aligned frame in the base at home
         local = nominal.local.frames[:-1]

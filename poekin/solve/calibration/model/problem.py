@@ -117,10 +117,19 @@ class Problem:
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their Jacobian."""
         errors = self.errors(p)
-        jacobians = self._jacobians(p, self.q, self.rows, errors)
+        jacobians = self._jacobians(
+            p,
+            self.q,
+            self.rows,
+            errors,
+        )
         return list(map(Linear, errors, jacobians))
 
-    def jacobians(self, p: Array, q: Array | None = None) -> list[Array]:
+    def jacobians(
+        self,
+        p: Array,
+        q: Array | None = None,
+    ) -> list[Array]:
         """The Jacobian (N, d, P) of each set as if the model were right: no measured value is used.
 
         q (K, m): other readings, at each of which every set measures.
@@ -166,7 +175,12 @@ class Problem:
             kept = np.flatnonzero(new[rows] >= 0)
             kept_rows = new[rows[kept]]
             sets.append(s.subset(kept).with_rows(kept_rows))
-        return Problem(self.model, self.q[chosen], sets, self.initial_frames)
+        return Problem(
+            self.model,
+            self.q[chosen],
+            sets,
+            self.initial_frames,
+        )
 
 
 def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:

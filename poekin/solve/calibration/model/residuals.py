@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -153,11 +154,7 @@ def median(values: Array) -> float:
 
 def rms(values: Array) -> float:
     """Root mean square of the values that are not NaN; NaN without any."""
-
-    def root_mean_square(known: Array) -> Any:
-        return np.sqrt(np.mean(known**2))
-
-    return _known(root_mean_square, values)
+    return math.sqrt(_known(np.mean, values**2))
 
 
 def largest(values: Array) -> float:

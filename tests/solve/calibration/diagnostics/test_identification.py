@@ -187,15 +187,15 @@ def test_what_is_seen_and_what_is_left_span_all_directions():
     J = np.array([[3.0, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1e-7, 0]])
     for least, rank in ((1e-9, 3), (1e-6, 2)):
         for rows in (J, np.concatenate([J, J, J])):
-            s, seen = identification._row_space(rows, least)
+            s, seen = identification.row_space(rows, least)
             assert seen.shape == (4, rank)
             np.testing.assert_allclose(s[0], np.linalg.norm(rows, 2))
             left = identification._complement(seen)
             both = np.concatenate([seen, left], axis=1)
             np.testing.assert_allclose(both.T @ both, np.eye(4), atol=1e-12)
             np.testing.assert_allclose(np.abs(left[3]).max(), 1, atol=1e-12)
-    assert identification._row_space(np.zeros((3, 4)), 1e-9).basis.shape == (4, 0)
-    assert identification._row_space(np.zeros((0, 4)), 1e-9).basis.shape == (4, 0)
+    assert identification.row_space(np.zeros((3, 4)), 1e-9).basis.shape == (4, 0)
+    assert identification.row_space(np.zeros((0, 4)), 1e-9).basis.shape == (4, 0)
     np.testing.assert_array_equal(identification._complement(np.zeros((4, 0))), np.eye(4))
     assert identification._complement(np.eye(4)).shape == (4, 0)
 

@@ -18,7 +18,7 @@ from poekin.errors import FileError, MissingExtra, ShapeError
 from poekin.groups import se3
 from poekin.solve.calibration import Distances, Points, calibrate
 from poekin.solve.calibration.measurements.simulated import simulated
-from poekin.solve.calibration.report import changes, html_report
+from poekin.solve.calibration.report import changes, html_report, plots
 from poekin.solve.calibration.result import Outlier
 
 pytest.importorskip("matplotlib")
@@ -116,7 +116,13 @@ def test_names_out_of_files_stand_there_as_text(text):
     assert "\x1b" not in text
 
 
-def test_without_a_title_a_page_has_that_of_the_arm_from_base_to_tip(found, monkeypatch):
+@pytest.fixture
+def undrawn(monkeypatch):
+    """No picture is drawn, which takes most of a page's time, where only its words are looked at."""
+    monkeypatch.setattr(plots.svg, "svg", lambda *_: "<svg></svg>")
+
+
+def test_without_a_title_a_page_has_that_of_the_arm_from_base_to_tip(found, undrawn, monkeypatch):
     monkeypatch.setattr(html_report.html_page, "page", lambda title, parts: title)
     assert html_report.html(found) == "Calibration: <b>base</b> to ${tip}"
     assert html_report.html(found, title="") == ""
@@ -202,14 +208,14 @@ def test_exact_data_have_a_page_too():
         html_report.html(dataclasses.replace(found, covariance=0 * found.covariance, steps=()))
 
 
-def test_parameters_without_screws_have_a_page_too():
+def test_parameters_without_screws_have_a_page_too(undrawn):
     q = ARM.random(0, 30)
     text = html_report.html(calibrate(ARM, q, ARM.fk(q + 1e-3), parameters="offsets", folds=0))
     assert text.count("<svg") == 3
     assert "tilt (mrad)" not in text
 
 
-def test_a_search_that_did_not_converge_is_told_first_and_then_warnings_and_remarks():
+def test_a_search_that_did_not_converge_is_told_first_and_then_warnings_and_remarks(undrawn):
     s = simulated(ARM, 40, tilt=0.02, shift=0.02)
     found = calibrate(ARM, s.q, s.measurements, folds=0, iterations=1)
     assert not found.success
@@ -247,9 +253,10 @@ def test_the_change_of_a_joint_is_its_length_and_its_95_percent():
             k += len(change.values)
 
 
-def test_the_report_is_that_page_whole_or_not_at_all(found, text, tmp_path):
+def test_the_report_is_that_page_whole_or_not_at_all(found, text, tmp_path, monkeypatch):
     found.report(tmp_path / "page.html", **WORDS)
     assert (tmp_path / "page.html").read_text(encoding="utf-8") == text
+    monkeypatch.setattr(plots.svg, "svg", lambda *_: "<svg></svg>")  # of pages that are not written
     with pytest.raises(FileError, match=r"cannot write"):
         found.report(tmp_path / "none" / "page.html")
     with pytest.raises(
