@@ -9,7 +9,7 @@ matrix; its eigenvalues are the squares of the singular values that the indices 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, NamedTuple, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
@@ -26,6 +26,9 @@ the calibrated model's errors then have, the mean over all candidates (V-optimal
 # in the logarithm of the criterion: less is rounding, and exchanges for it could go round in
 # circles
 MIN_IMPROVEMENT = 1e-9
+# eigenvectors for the bounds: more of them make tighter bounds, which cost more
+LOWEST = 8
+HIGHEST = 2
 TOGETHER = 32  # exchanges that are evaluated in full at a time
 # of the information of a mean candidate: stands in for what the first few do not see
 REGULARISATION = 1e-9
@@ -119,14 +122,15 @@ class Search(NamedTuple):
 
 
 class DesignState(NamedTuple):
-    """Information N (L, L) of the chosen, the criterion's value, and eigenvalues (L,) and
-    eigenvectors (L, L) of N.
+    """Information N (L, L) of the chosen, the criterion's value, and N^-1, for "O1" and
+    "prediction", or a few eigenvalues (k,) and eigenvectors (L, k) of N.
     """
 
     N: Array
     value: float
-    eigenvalues: Array
-    vectors: Array
+    inverse: Any = None
+    eigenvalues: Any = None
+    vectors: Any = None
 
 
 def design_state(search: Search, chosen: np.ndarray) -> DesignState:
@@ -135,10 +139,19 @@ def design_state(search: Search, chosen: np.ndarray) -> DesignState:
     J = search.blocks[chosen].reshape(-1, size)
     N = J.T @ J
     worth = float(value(N, search.criterion, search.mean))
+    if search.criterion in ("O1", "prediction"):
+        inverse = np.linalg.inv(N)
+        return DesignState(N, worth, inverse)
+    eigenvalues, V = np.linalg.eigh(N)
+    some = np.arange(len(N))
+    if len(N) > LOWEST + HIGHEST:
+        lowest = some[:LOWEST]
+        some = np.concatenate([lowest, some[-HIGHEST:]])
     return DesignState(
         N,
         worth,
-        *np.linalg.eigh(N),
+        eigenvalues=eigenvalues[some],
+        vectors=V[:, some],
     )
 
 
@@ -221,22 +234,40 @@ def upper_bound(search: Search, state: DesignState, out: Array) -> Array:
     """Upper bound (K,) of the criterion after each exchange of the block `out` for candidate j, so
     that few need to be evaluated in full.
     """
-    if search.criterion in ("O1", "prediction"):
-        return _exact_update(search, state, out)
-    return _bound_by_eigenvectors(search, state, out)
+    if state.inverse is None:
+        return _bound_by_ritz_values(search, state, out)
+    return _exact_update(search, state, out)
 
 
-def _bound_by_eigenvectors(search: Search, state: DesignState, out: Array) -> Array:
-    """Bound by the eigenvectors V of N: the diagonal of V^T N' V lies between the smallest and the
-    largest eigenvalue of N' (Rayleigh).
+def _bound_by_ritz_values(search: Search, state: DesignState, out: Array) -> Array:
+    """Bound of the extreme eigenvalues: on a few eigenvectors V of N, the eigenvalues of V^T N' V
+    lie between the smallest and the largest of N' (Rayleigh and Ritz).
     """
     into = search.blocks @ state.vectors
     gone = out @ state.vectors
     remaining = state.eigenvalues - (gone**2).sum(0)
     diagonal = remaining + (into**2).sum(1)
-    low = _log(diagonal.min(1), -np.inf)
-    high = _log(diagonal.max(1), np.inf)
-    return _of_extremes(low, high, search.criterion)
+    ahead = _between(diagonal.min(1), diagonal.max(1), search.criterion)
+    left = np.flatnonzero(ahead > state.value)  # for the others one vector each says enough
+    some = into[left]
+    left_over = np.diag(state.eigenvalues) - gone.T @ gone
+    projected = left_over + some.transpose(0, 2, 1) @ some
+    ritz = np.linalg.eigvalsh(projected)
+    ahead[left] = _between(ritz[:, 0], ritz[:, -1], search.criterion)
+    return ahead
+
+
+def _between(
+    low: np.ndarray,
+    high: np.ndarray,
+    criterion: Criterion,
+) -> Array:
+    """Bound (K,) of the criterion where all eigenvalues span from low to high at least."""
+    return _of_extremes(
+        _log(low, -np.inf),
+        _log(high, np.inf),
+        criterion,
+    )
 
 
 def _exact_update(search: Search, state: DesignState, out: Array) -> Array:
@@ -248,15 +279,14 @@ def _exact_update(search: Search, state: DesignState, out: Array) -> Array:
     signs = np.repeat([1.0, -1.0], len(out))
     outs = np.broadcast_to(out, blocks.shape)
     W = np.concatenate([blocks, outs], axis=1)
-    inverse = np.linalg.inv(state.N)
-    C = np.diag(signs) + W @ inverse @ W.transpose(0, 2, 1)
+    C = np.diag(signs) + W @ state.inverse @ W.transpose(0, 2, 1)
     sign, log = np.linalg.slogdet(C)
     regular = sign * signs.prod() > 0
     if search.criterion == "O1":
         return np.where(regular, state.value + log, -np.inf)
     C[~regular] = np.eye(len(signs))
-    weighted = inverse @ search.mean
-    spread = W @ (weighted @ inverse) @ W.transpose(0, 2, 1)
+    weighted = state.inverse @ search.mean
+    spread = W @ (weighted @ state.inverse) @ W.transpose(0, 2, 1)
     less = _trace(np.linalg.solve(C, spread))
     left = np.trace(weighted) - less
     return np.where(regular, -_log(left, np.inf), -np.inf)
