@@ -56,7 +56,7 @@ def test_a_compiled_chain_carries_nothing_of_what_was_solved_with_it():
     before = pickle.dumps(fast)
     assert ik(fast, UR5.fk(UR5.random(0))).success
     assert pickle.dumps(fast) == before
-    assert not any(isinstance(part, ik_problem.Problem) for part in vars(fast).values())
+    assert not any(isinstance(part, ik_problem.IKProblem) for part in vars(fast).values())
     assert fast == CompiledChain(UR5)
 
 
@@ -71,7 +71,7 @@ class Interrupted(dict):
 
 def test_threads_may_ask_one_arm_in_more_ways_than_are_kept(monkeypatch):
     monkeypatch.setattr(chain_cache, "KEPT", 64)
-    cache: ChainCache[ik_problem.Problem] = ChainCache()
+    cache: ChainCache[ik_problem.IKProblem] = ChainCache()
     cache._entries = Interrupted()
     monkeypatch.setattr(ik_problem, "_PROBLEMS", cache)
     fast = CompiledChain(UR5)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -28,7 +30,8 @@ def own(chain, q):
 
 def test_every_pose_within_the_joints_limits_is_reached_within_them(chain):
     T = chain.fk(chain.random(0, 100))
-    for options in ({}, {"nearest_to": np.zeros(6)}, {"lock": {}}):
+    ways: list[dict[str, Any]] = [{}, {"nearest_to": np.zeros(6)}, {"lock": {}}]
+    for options in ways:
         found = pk.ik(chain, T, **options)
         assert found.success.all()
         assert own(chain, found.q).all()

@@ -31,7 +31,7 @@ from .count_methods import JacobianThenPose, Links, Row, Rows, empty_rows
 Algorithm = Callable[[Links], JacobianThenPose]
 
 
-class Motion(NamedTuple):
+class JointMotion(NamedTuple):
     """Joint i as it moves: x = C q + c, sin r x, cos r x, and s x."""
 
     kind: str
@@ -41,7 +41,7 @@ class Motion(NamedTuple):
     shift: Any
 
 
-Form = Callable[[Motion, np.random.Generator], Row]
+Form = Callable[[JointMotion, np.random.Generator], Row]
 
 
 def paper_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
@@ -86,7 +86,7 @@ def all_operations(
             x = x + graph.scaled(q, factor)
         rates = [r * factor for factor in row]
         sine, cosine = angles.sine_cosine(rates, r * c, 0)
-        motion = Motion(kind, x, sine, cosine, s * x)
+        motion = JointMotion(kind, x, sine, cosine, s * x)
         poses.append(form(motion, rng))
     J, T = _run(algorithm, chain, poses, with_pose)
     if chain.nontrivial_coupling is None:
@@ -96,7 +96,7 @@ def all_operations(
     return _count(graph, angles, T, J_q)
 
 
-def exponential(motion: Motion, rng: np.random.Generator) -> Row:
+def exponential(motion: JointMotion, rng: np.random.Generator) -> Row:
     """e^{A x} of a general screw: 15 multiplications and 13 additions of a revolute joint."""
     A = generic_screw(motion.kind, rng)
     omega = A[:3]
@@ -104,18 +104,18 @@ def exponential(motion: Motion, rng: np.random.Generator) -> Row:
     return joint(omega, v, motion.x, motion.sine, motion.cosine)
 
 
-def general_link(motion: Motion, rng: np.random.Generator) -> Row:
+def general_link(motion: JointMotion, rng: np.random.Generator) -> Row:
     """M e^{S x} in link frames that are attached anywhere."""
     return compose(generic_pose(rng), exponential(motion, rng))
 
 
-def z_link(motion: Motion, rng: np.random.Generator) -> Row:
+def z_link(motion: JointMotion, rng: np.random.Generator) -> Row:
     """M e^{S x} in z-aligned link frames: 12 multiplications and 6 additions of a revolute joint."""
     M = generic_pose(rng)
     return turned_about_z(M, motion.sine, motion.cosine, motion.shift)
 
 
-def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
+def paul_link(motion: JointMotion, rng: np.random.Generator) -> Row:
     """Rz(theta) Tz(d) Tx(a) Rx(alpha), the joint before its link."""
     d, a, alpha, theta = generic(rng, 4).tolist()
     turn = motion.sine, motion.cosine
@@ -124,7 +124,7 @@ def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
     return dh.link(*turn, d + motion.shift, a, *_sine_cosine(alpha))
 
 
-def craig_link(motion: Motion, rng: np.random.Generator) -> Row:
+def craig_link(motion: JointMotion, rng: np.random.Generator) -> Row:
     """Tx(a) Rx(alpha) Rz(theta) Tz(d), the joint behind its link."""
     d, a, alpha, theta = generic(rng, 4).tolist()
     fixed = 0.0

@@ -26,7 +26,7 @@ Deg = Annotated[
 BEYOND = 1e-9  # rad or m: what rounding may add to a limit
 
 
-class Units(NamedTuple):
+class SaidUnits(NamedTuple):
     """Units that --mm and --deg say, None where they are not given: coordinates are in m and rad."""
 
     mm: bool | None = None
@@ -72,11 +72,11 @@ def _converted(values: Array, units: Iterable[str], wanted: Iterable[str]) -> Ar
     return converted
 
 
-SI = Units()
+SI = SaidUnits()
 """Neither --mm nor --deg."""
 
 
-def beyond_limits(chain: Chain, q: Array, units: Units) -> str:
+def beyond_limits(chain: Chain, q: Array, units: SaidUnits) -> str:
     """A sentence about configurations (N, m) beyond the limits, "" where there is none."""
     low, high = chain.limits.T
     outside = (q < low - BEYOND) | (q > high + BEYOND)

@@ -15,7 +15,7 @@ from ...errors import InputError, quote
 from ...formats.text import csv_rows
 from ...model.chain import Chain
 from .. import array_files
-from ..formats.units import SI, Units, beyond_limits
+from ..formats.units import SI, SaidUnits, beyond_limits
 from ..model import model
 from ..output import Progress, as_json, complain, heading, matrix, name, number, path_text, say
 from . import poses
@@ -65,7 +65,7 @@ class ChainArguments:
     chain: Chain
     q: np.ndarray
     single: bool
-    units: Units = SI
+    units: SaidUnits = SI
 
 
 def take(
@@ -76,7 +76,7 @@ def take(
     given: str | None,
     *,
     many: bool = True,
-    units: Units | None = None,
+    units: SaidUnits | None = None,
 ) -> ChainArguments:
     """Chain and configurations that a command line names.
 
@@ -102,7 +102,7 @@ def take(
     return _in_si(ChainArguments(robot.name, chain, rows, False), units)
 
 
-def _in_si(arm: ChainArguments, units: Units | None) -> ChainArguments:
+def _in_si(arm: ChainArguments, units: SaidUnits | None) -> ChainArguments:
     """Configurations in rad and m; those beyond the limits are told on stderr."""
     if units is None:
         return arm
@@ -172,7 +172,7 @@ class Results:
             matrix(self.values[0])
 
 
-def show_coordinates(chain: Chain, q: np.ndarray, units: Units = SI) -> None:
+def show_coordinates(chain: Chain, q: np.ndarray, units: SaidUnits = SI) -> None:
     """Print a line for each coordinate, with its unit where one was said."""
     said = units.said()
     values = units.from_si(q, chain)

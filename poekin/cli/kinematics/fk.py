@@ -10,10 +10,10 @@ import numpy as np
 from typer import Option
 
 from ...formats.poses import pose_rows
-from ...formats.poses.layout import Layout, layout
+from ...formats.poses.layout import PoseLayout, layout
 from ...formats.poses.write import line
 from .. import array_files
-from ..formats.units import SI, Deg, Mm, Units
+from ..formats.units import SI, Deg, Mm, SaidUnits
 from ..output import name, number, say
 from . import poses
 from .arm import (
@@ -60,7 +60,7 @@ def command(
     """Pose (4×4, in m) of the link --tip in the link --base, at Q or at every line of --input."""
     array_files.check_place(output)
     array_files.check_apart([output], model=file, configurations=given)
-    units = Units(mm, deg)
+    units = SaidUnits(mm, deg)
     chosen = None
     if format is not None or quaternion is not None:
         chosen = poses.pose_layout(format, quaternion, units)
@@ -75,8 +75,8 @@ def command(
 class PoseResults(Results):
     """Poses, as 4x4 matrices or, with a layout, as rows of its numbers."""
 
-    units: Units = SI
-    layout: Layout | None = None
+    units: SaidUnits = SI
+    layout: PoseLayout | None = None
 
     def array(self) -> np.ndarray:
         """Poses (N, 4, 4), or rows (N, k) of their numbers."""
@@ -119,12 +119,12 @@ class PoseResults(Results):
         say("  " + line(np.round(self.array()[0], DECIMALS), chosen))
 
 
-def _with_units(chosen: Layout, said: Sequence[str]) -> list[str]:
+def _with_units(chosen: PoseLayout, said: Sequence[str]) -> list[str]:
     pairs = zip(chosen.columns, chosen.units, strict=True)
     return [f"{column} [{unit}]" if unit in said else column for column, unit in pairs]
 
 
-def _show_numbers(T: np.ndarray, units: Units) -> None:
+def _show_numbers(T: np.ndarray, units: SaidUnits) -> None:
     """Print position, quaternion and roll, pitch, yaw of a pose."""
     turned = layout("quat", "wxyz", mm=units.mm)
     p, wxyz = np.split(pose_rows.to_rows(T[None], turned)[0], [3])

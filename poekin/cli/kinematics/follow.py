@@ -17,7 +17,7 @@ from ...solve.ik.task import TaskName
 from ...solve.path.follow import follow
 from ...solve.path.path_result import PathResult
 from .. import array_files
-from ..formats.units import Deg, Mm, Units
+from ..formats.units import Deg, Mm, SaidUnits
 from ..model import model
 from ..output import Progress, as_json, complain, heading, path_text, say
 from . import fastest_files, poses
@@ -121,7 +121,7 @@ def command(
         raise InputError(
             "--speed and --acceleration: expected together with --duration or --fastest, got none"
         )
-    units = Units(mm, deg)
+    units = SaidUnits(mm, deg)
     T = poses.read(None, given, format, quaternion, units)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
@@ -168,7 +168,7 @@ def _give(
     path: PathResult,
     output: Path | None,
     json: bool,
-    units: Units,
+    units: SaidUnits,
 ) -> None:
     q = units.from_si(path.q, chain)
 

@@ -14,7 +14,7 @@ from ...solve.ik.ik import ik
 from ...solve.ik.solution import Solution
 from ...solve.ik.task import TaskName
 from .. import array_files
-from ..formats.units import Deg, Mm, Units
+from ..formats.units import Deg, Mm, SaidUnits
 from ..model import model
 from ..output import Progress, as_json, complain, heading, name, path_text, say
 from . import poses
@@ -62,7 +62,7 @@ def command(
     """
     array_files.check_place(output)
     array_files.check_apart([output], model=file, poses=given)
-    units = Units(mm, deg)
+    units = SaidUnits(mm, deg)
     T = poses.read(words, given, format, quaternion, units)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
@@ -90,7 +90,7 @@ def _give(
     single: bool,
     output: Path | None,
     json: bool,
-    units: Units,
+    units: SaidUnits,
 ) -> None:
     count = len(found.q)
     q = units.from_si(found.q, chain)
@@ -131,7 +131,7 @@ def _report(found: Solution, reasons: dict[int, str], single: bool) -> dict[str,
     return parts
 
 
-def _show(chain: Chain, found: Solution, units: Units) -> None:
+def _show(chain: Chain, found: Solution, units: SaidUnits) -> None:
     words = "not solved"
     if found.success[0]:
         words = (

@@ -12,13 +12,13 @@ from typer import Argument, Option
 
 from ...errors import InputError, quote
 from ...formats.poses import pose_rows
-from ...formats.poses.layout import NAMED, Layout, layout
+from ...formats.poses.layout import NAMED, PoseLayout, layout
 from ...formats.poses.read import pose_columns, read_file, read_text
 from ...formats.text.numbers import real
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from .. import array_files
-from ..formats.units import SI, Units
+from ..formats.units import SI, SaidUnits
 from ..output import Progress, name
 
 FORMAT_HELP = (
@@ -79,7 +79,7 @@ def read(
     given: str | None,
     format: str | None,
     quaternion: str | None,
-    units: Units = SI,
+    units: SaidUnits = SI,
 ) -> Array:
     """The poses (N, 4, 4) that a command line names; NaN where a row is not finite. Raises:
     InputError, PoseError, FileError, with file and line.
@@ -100,10 +100,10 @@ def read(
 def pose_layout(
     format: str | None,
     quaternion: str | None,
-    units: Units,
+    units: SaidUnits,
     *,
     joints: bool = True,
-) -> Layout:
+) -> PoseLayout:
     """Layout that --format, --quaternion, --mm and --deg name; joints, whether --deg is of joints too.
     Raises: InputError.
     """
@@ -114,7 +114,7 @@ def pose_layout(
     return layout(format, quaternion, mm=units.mm, deg=units.deg, joints=joints)
 
 
-def _read_file(given: str, chosen: Layout, units: Units) -> Array:
+def _read_file(given: str, chosen: PoseLayout, units: SaidUnits) -> Array:
     place = array_files.called(given)
     if Path(given).suffix.lower() != ".npy":
         return _read_text_file(given, chosen, units, place)
@@ -127,7 +127,7 @@ def _read_file(given: str, chosen: Layout, units: Units) -> Array:
     return pose_rows.to_poses(rows, chosen, lambda i: f"{place}, row {i}")
 
 
-def _read_text_file(given: str, chosen: Layout, units: Units, place: str) -> Array:
+def _read_text_file(given: str, chosen: PoseLayout, units: SaidUnits, place: str) -> Array:
     file: str | int = given
     if given in array_files.STDIN:
         array_files.take_stdin("--input")
@@ -157,7 +157,7 @@ def coordinates(
     text: str | None,
     chain: Chain,
     option: str,
-    units: Units = SI,
+    units: SaidUnits = SI,
 ) -> Array | None:
     """The numbers of an option with one for each coordinate, commas or blanks between them, in rad
     and m.
@@ -173,7 +173,7 @@ def for_each(
     text: str | None,
     chain: Chain,
     option: str,
-    units: Units = SI,
+    units: SaidUnits = SI,
 ) -> Array | float | None:
     """The numbers of an option with one for all coordinates or one for each, in rad and m."""
     words = (text or "").replace(",", " ").split()

@@ -8,7 +8,7 @@ import numpy as np
 from ...algebra import store_row
 from ..jit.kernel import kernel
 from .ik_codes import SOLVED
-from .ik_kernels import Problem, descend, scratch_of_try, set_info
+from .ik_kernels import KernelProblem, descend, scratch_of_try, set_info
 
 
 @kernel("int w3 w1 w2 w1 w1 w1 w2 w2", returns="int")
@@ -20,7 +20,7 @@ def follow(arm, targets, start, limits, fixed, options, most, q, info):
     `ik_kernels.solve_many`.
     """
     m = q.shape[1]
-    problem = Problem(arm, limits, fixed, options)
+    problem = KernelProblem(arm, limits, fixed, options)
     work = scratch_of_try(m)
     last = start.copy()
     now = np.empty(m)

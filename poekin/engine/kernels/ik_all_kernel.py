@@ -18,7 +18,7 @@ from .ik_codes import POSE, SOLVED
 from .ik_kernels import (
     ERROR,
     STEP,
-    Problem,
+    KernelProblem,
     descend,
     errors_at,
     next_random,
@@ -162,7 +162,7 @@ def search(
     means one of these, or that one is missing.
     """
     m = q.shape[2]
-    problem = Problem(arm, limits, np.zeros(m), options)
+    problem = KernelProblem(arm, limits, np.zeros(m), options)
     work = scratch_of_try(m)
     trial = np.empty(m)
     middle = np.empty(m)

@@ -50,7 +50,7 @@ ERROR, STEP, FREE, CODE = range(4)
 SPARE = 16
 
 
-class Problem(NamedTuple):
+class KernelProblem(NamedTuple):
     """Inputs that all tries of a call share; see `solve_many`."""
 
     arm: int
@@ -216,7 +216,7 @@ def solve_many(arm, targets, q0, limits, ranges, fixed, options, indices, seed, 
     where a coordinate stays what it is in q0.
     """
     m = q.shape[1]
-    problem = Problem(arm, limits, fixed, options)
+    problem = KernelProblem(arm, limits, fixed, options)
     work = scratch_of_try(m)
     trial = np.empty(m)
     for k in range(targets.shape[0]):

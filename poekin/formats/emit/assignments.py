@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from .messages import Task
+from .messages import EmittedFunction
 from .statements import Statements, WriteNumber, by_outputs
 
 INDENT = "    "
@@ -21,7 +21,7 @@ def angle_assignments(program: Statements, declare: str) -> list[str]:
 
 def result_assignments(
     program: Statements,
-    task: Task,
+    task: EmittedFunction,
     literal: WriteNumber,
     declare: str,
 ) -> list[str]:

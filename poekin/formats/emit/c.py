@@ -14,7 +14,7 @@ from ...model.kinematics.pose_jacobian import AnyFrame
 from .assignments import angle_assignments, comment, result_assignments
 from .c_selftest import selftest
 from .messages import (
-    Task,
+    EmittedFunction,
     angle_lines,
     compile_checked,
     header_lines,
@@ -147,7 +147,7 @@ class _Function:
         word: str,
         real: str,
         literal: WriteNumber,
-        task: Task,
+        task: EmittedFunction,
         dof: int,
     ) -> None:
         self.task = task

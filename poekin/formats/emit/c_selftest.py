@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .messages import Task
+from .messages import EmittedFunction
 from .statements import WriteNumber, double
 from .vectors import Vectors
 
@@ -66,7 +66,7 @@ def selftest(
     word: str,
     real: str,
     literal: WriteNumber,
-    tasks: Sequence[Task],
+    tasks: Sequence[EmittedFunction],
     wanted: Vectors,
 ) -> str:
     """The text of the program."""
@@ -85,7 +85,7 @@ def selftest(
     )
 
 
-def _calls(word: str, task: Task, dof: int) -> list[str]:
+def _calls(word: str, task: EmittedFunction, dof: int) -> list[str]:
     sizes = {"T": 16, "J": 6 * dof}
     return [
         f"        {word}_{task.name}(Q[i]{task.arguments});",

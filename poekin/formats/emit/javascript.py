@@ -6,7 +6,14 @@ from ...checks import REQUIRED
 from ...model.kinematics.arm import Arm
 from ...model.kinematics.pose_jacobian import AnyFrame
 from .assignments import INDENT, angle_assignments, comment, result_assignments
-from .messages import Task, angle_lines, compile_checked, header_lines, made_by, make_tasks
+from .messages import (
+    EmittedFunction,
+    angle_lines,
+    compile_checked,
+    header_lines,
+    made_by,
+    make_tasks,
+)
 from .statements import double, statements
 
 
@@ -72,7 +79,7 @@ def javascript(
     return "\n".join([comment(head), *(_functions(task, arm.dof) for task in tasks)])
 
 
-def _functions(task: Task, dof: int) -> str:
+def _functions(task: EmittedFunction, dof: int) -> str:
     program = statements(task.program, double)
     sizes = {"T": 16, "J": 6 * dof}
     results = ", ".join(f"{name} = {_array(sizes[name])}" for name in task.results)

@@ -55,7 +55,7 @@ def made_by(origin: str) -> list[str]:
 
 
 @dataclass(frozen=True)
-class Task:
+class EmittedFunction:
     """One function to write: its name, its program, and whether it writes pose and Jacobian."""
 
     name: str
@@ -91,15 +91,17 @@ def compile_checked(chain: Arm, frame: AnyFrame) -> CompiledChain:
     return fast
 
 
-def make_tasks(arm: CompiledChain, frame: AnyFrame) -> tuple[Task, Task, Task]:
+def make_tasks(
+    arm: CompiledChain, frame: AnyFrame
+) -> tuple[EmittedFunction, EmittedFunction, EmittedFunction]:
     """Pose, Jacobian, and both in one pass. Raises: InputError, UnknownName for a frame that there is not."""
     which = frame
     if not isinstance(frame, str):
         which = f"joint{int(frame)}"
     return (
-        Task("fk", True, False, arm.program(None)),
-        Task(f"jacobian_{which}", False, True, arm.program(frame)),
-        Task(f"fk_jacobian_{which}", True, True, arm.program(frame, pose=True)),
+        EmittedFunction("fk", True, False, arm.program(None)),
+        EmittedFunction(f"jacobian_{which}", False, True, arm.program(frame)),
+        EmittedFunction(f"fk_jacobian_{which}", True, True, arm.program(frame, pose=True)),
     )
 
 
@@ -141,7 +143,7 @@ def _coordinate(chain: Chain, k: int) -> str:
     return words
 
 
-def angle_lines(task: Task) -> list[str]:
+def angle_lines(task: EmittedFunction) -> list[str]:
     """Angles whose sines and cosines a function takes, line by line."""
     lines = []
     for j, angle in enumerate(task.program.angles):

@@ -7,7 +7,14 @@ import textwrap
 from ...checks import REQUIRED
 from ...model.kinematics.arm import Arm
 from ...model.kinematics.pose_jacobian import AnyFrame
-from .messages import Task, angle_lines, compile_checked, header_lines, made_by, make_tasks
+from .messages import (
+    EmittedFunction,
+    angle_lines,
+    compile_checked,
+    header_lines,
+    made_by,
+    make_tasks,
+)
 from .statements import Statements, by_outputs, double, statements
 
 
@@ -77,7 +84,7 @@ def python(
     )
 
 
-def _functions(task: Task, dof: int) -> str:
+def _functions(task: EmittedFunction, dof: int) -> str:
     program = statements(task.program, double)
     shapes = {"T": "T (..., 4, 4)", "J": f"J (..., 6, {dof})"}
     what = ", ".join(shapes[result] for result in task.results)
@@ -124,7 +131,7 @@ def _angles(program: Statements) -> list[str]:
     ]
 
 
-def _statements(program: Statements, task: Task, dof: int) -> list[str]:
+def _statements(program: Statements, task: EmittedFunction, dof: int) -> list[str]:
     arrays = {"s": "sines", "c": "cosines", "q": "q"}
     T, J = by_outputs(program.outputs, task.pose)
     lines = [f"    {name} = {arrays[array]}[..., {k}]" for name, array, k in program.reads]

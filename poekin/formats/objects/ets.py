@@ -23,7 +23,7 @@ _KINDS: dict[str, JointKind] = {"R": "revolute", "t": "prismatic"}
 _AXES = ("Rx", "Ry", "Rz", "tx", "ty", "tz")
 
 
-class Step(NamedTuple):
+class SequenceJoint(NamedTuple):
     """Joint of a sequence: pose of its frame behind the joint before, kind, screw, coordinate."""
 
     origin: Array
@@ -153,7 +153,7 @@ class _Tree:
 
     def _add_joint(
         self,
-        step: Step,
+        step: SequenceJoint,
         parent: str,
         child: str,
         origin: Array,
@@ -178,9 +178,9 @@ class _Tree:
 def _steps(
     items: list[Any],
     what: str,
-) -> tuple[list[Step], Array]:
+) -> tuple[list[SequenceJoint], Array]:
     """The joints of a sequence, and the constant pose behind the last one."""
-    steps: list[Step] = []
+    steps: list[SequenceJoint] = []
     T = np.eye(4)
     for i, et in enumerate(items):
         where = f"{what}, transform {i}"
@@ -202,7 +202,7 @@ def _steps(
             jindex = len(steps)
         limits = _limits(getattr(et, "qlim", None))
         kind = _KINDS[axis[0]]
-        steps.append(Step(T, kind, screw, int(jindex), limits))
+        steps.append(SequenceJoint(T, kind, screw, int(jindex), limits))
         T = np.eye(4)
     return steps, T
 
@@ -214,7 +214,7 @@ def _limits(qlim: Any) -> Interval:
     return float(lower), float(upper)
 
 
-def _shared(steps: list[Step], coordinate: int) -> Interval:
+def _shared(steps: list[SequenceJoint], coordinate: int) -> Interval:
     """Intersection of the limits of the joints that move together."""
     limits = [step.limits for step in steps if step.coordinate == coordinate]
     highest = max(lower for lower, _ in limits)

@@ -39,7 +39,7 @@ _UNALIGNED: dict[str, JointKind] = {
 }
 
 
-class Motion(NamedTuple):
+class ElementaryMotion(NamedTuple):
     """Elementary motion: pose of its frame in the one before, kind, axis, pitch [m per rad]."""
 
     origin: Array
@@ -60,7 +60,7 @@ def extracted(joint: Any) -> Any:
     return joint
 
 
-def motions(joint: Any, name: str) -> list[Motion]:
+def motions(joint: Any, name: str) -> list[ElementaryMotion]:
     """The elementary motions of a joint of a model, one after the other.
 
     Raises: ModelError that names the joint where it has none: spherical (a unit quaternion) and
@@ -71,12 +71,12 @@ def motions(joint: Any, name: str) -> list[Motion]:
     bare = extracted(joint)
     here = np.eye(4)
     if kind in _FREE:
-        return [Motion(here, _FREE[kind], _Z)]
+        return [ElementaryMotion(here, _FREE[kind], _Z)]
     if kind in _SERIES:
-        return [Motion(here, single, axis) for single, axis in _SERIES[kind]]
+        return [ElementaryMotion(here, single, axis) for single, axis in _SERIES[kind]]
     if kind == "Universal":
         axes = (bare.axis1, bare.axis2)
-        return [Motion(here, "revolute", _three(axis)) for axis in axes]
+        return [ElementaryMotion(here, "revolute", _three(axis)) for axis in axes]
     if kind == "Composite":
         parts = []
         for placement, part in zip(bare.jointPlacements, bare.joints, strict=True):
@@ -90,9 +90,9 @@ def motions(joint: Any, name: str) -> list[Motion]:
     stem = kind[:-1]
     letter = kind[-1:]
     if stem in _KINDS and letter in _UNIT:
-        return [Motion(here, _KINDS[stem], _UNIT[letter], pitch)]
+        return [ElementaryMotion(here, _KINDS[stem], _UNIT[letter], pitch)]
     if kind in _UNALIGNED and has(bare, "axis"):
-        return [Motion(here, _UNALIGNED[kind], _three(bare.axis), pitch)]
+        return [ElementaryMotion(here, _UNALIGNED[kind], _three(bare.axis), pitch)]
     if kind in _UNALIGNED or kind == "Mimic":
         return [_by_subspace(joint, bare, name, _UNALIGNED.get(kind))]
     raise ModelError(
@@ -106,7 +106,7 @@ def _by_subspace(
     bare: Any,
     name: str,
     kind: JointKind | None,
-) -> Motion:
+) -> ElementaryMotion:
     """Motion of a joint whose axis stands only in its constant motion subspace S = (v; omega)."""
     scaling = float(getattr(bare, "scaling", 1.0))
     S = np.asarray(joint.createData().S, dtype=float).ravel()
@@ -120,9 +120,9 @@ def _by_subspace(
         raise ModelError(message)
     if S[3:].any():
         omega = _three(S[3:] / scaling)
-        return Motion(np.eye(4), kind or "revolute", omega)
+        return ElementaryMotion(np.eye(4), kind or "revolute", omega)
     v = _three(S[:3] / scaling)
-    return Motion(np.eye(4), kind or "prismatic", v)
+    return ElementaryMotion(np.eye(4), kind or "prismatic", v)
 
 
 def _three(axis: Any) -> tuple[float, ...]:

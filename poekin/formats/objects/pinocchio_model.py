@@ -45,7 +45,7 @@ _OF_DRIVES: dict[str, tuple[str, Callable[[float], float]]] = {
 _LIMITED = ("revolute", "prismatic", "helical")
 
 
-class Frame(NamedTuple):
+class ModelFrame(NamedTuple):
     """Frame of the model: name, kind, the joint that carries it, its pose there, and `above`.
 
     `above`: number of the frame that it hangs on, its own where that is no earlier one.
@@ -58,7 +58,7 @@ class Frame(NamedTuple):
     above: int
 
 
-class Place(NamedTuple):
+class LinkPlace(NamedTuple):
     """A link, and its pose in the frame of the model's joint that carries it."""
 
     link: str
@@ -91,23 +91,23 @@ def make_robot(model: Any) -> Robot:
     for a model
     of Pinocchio 2.
     Accuracy: placements as they are; that of a frame on another one within 4 u of their distances
-    from the joint. Source: Pinocchio's documentation of Model and Frame.
+    from the joint. Source: Pinocchio's documentation of Model and ModelFrame.
     """
     names = [str(name) for name in model.names]
     frames = [_frame(frame, i) for i, frame in enumerate(model.frames)]
     own = _own_frames(frames, names)
     bodies = _bodies(frames, set(own.values()))
     links, holders, taken = _link_names(frames, names, own, bodies)
-    places = {j: Place(holder, np.eye(4)) for j, holder in enumerate(holders)}
+    places = {j: LinkPlace(holder, np.eye(4)) for j, holder in enumerate(holders)}
 
-    def above(joint: int, i: int | None) -> Place:
+    def above(joint: int, i: int | None) -> LinkPlace:
         """The link below which something on a joint hangs: the frame i's own parent, or the joint's
         link.
         """
         if i is not None and frames[i].above != i:
             k = frames[i].above
             if frames[k].joint == joint:
-                return Place(links[k], frames[k].pose)
+                return LinkPlace(links[k], frames[k].pose)
         return places[joint]
 
     joints: list[Joint] = []
@@ -136,7 +136,7 @@ def make_robot(model: Any) -> Robot:
     return Robot(called, dict.fromkeys(every), joints)
 
 
-def _frame(frame: Any, i: int) -> Frame:
+def _frame(frame: Any, i: int) -> ModelFrame:
     kind = str(getattr(frame.type, "name", frame.type))
     pose = one_pose(frame.placement, f"placement of frame {quote(frame.name)}")
     if not hasattr(frame, "parentFrame"):
@@ -147,11 +147,11 @@ def _frame(frame: Any, i: int) -> Frame:
     if not 0 <= above < i:
         above = i
     name = str(frame.name) or f"frame{i}"
-    return Frame(name, kind, int(frame.parentJoint), pose, above)
+    return ModelFrame(name, kind, int(frame.parentJoint), pose, above)
 
 
 def _own_frames(
-    frames: list[Frame],
+    frames: list[ModelFrame],
     names: list[str],
 ) -> dict[int, int]:
     """Numbers of the joints' own frames, in their very places; of the universe too."""
@@ -165,7 +165,7 @@ def _own_frames(
 
 
 def _bodies(
-    frames: list[Frame],
+    frames: list[ModelFrame],
     own: set[int],
 ) -> dict[int, int]:
     """Numbers of the BODY frames that are joints' child links: the only ones in their places."""
@@ -180,7 +180,7 @@ def _bodies(
 
 
 def _link_names(
-    frames: list[Frame],
+    frames: list[ModelFrame],
     names: list[str],
     own: dict[int, int],
     bodies: dict[int, int],

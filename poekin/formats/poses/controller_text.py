@@ -15,7 +15,7 @@ import numpy as np
 from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ..text.numbers import real
-from .layout import Layout
+from .layout import PoseLayout
 from .places import places
 
 _DIGIT = r"[-+]?\.?\d"
@@ -55,7 +55,7 @@ class Pieces(NamedTuple):
     places: list[str]
 
 
-def rows(text: str, layout: Layout, where: str) -> tuple[Array, list[str]] | None:
+def rows(text: str, layout: PoseLayout, where: str) -> tuple[Array, list[str]] | None:
     """Rows (N, k) of the poses in a text, and where each stands; None where the text has no pose as
     the controller of this format writes it.
 
@@ -100,7 +100,7 @@ def _lines(text: str, vendor: str, where: str) -> Pieces:
     return pieces
 
 
-def _numbers(piece: str, layout: Layout, vendor: str, place: str) -> list[float]:
+def _numbers(piece: str, layout: PoseLayout, vendor: str, place: str) -> list[float]:
     """The numbers of one pose in the order of the columns."""
     if vendor in _NOT_READ:
         if vendor == "kuka":
@@ -132,7 +132,7 @@ def _kuka_items(piece: str, place: str) -> Iterator[tuple[str, float]]:
         yield key.upper(), _number(value, place)
 
 
-def _fanuc_items(piece: str, layout: Layout, place: str) -> Iterator[tuple[str, float]]:
+def _fanuc_items(piece: str, layout: PoseLayout, place: str) -> Iterator[tuple[str, float]]:
     """Keys and values of `X = 1.0 mm, W = 2.0 deg`; units are held against those of the layout."""
     units: Mapping[str, str] = dict(zip(layout.columns, layout.units, strict=True))
     without_texts = re.sub("'[^']*'", "", piece)
@@ -152,7 +152,7 @@ def _fanuc_items(piece: str, layout: Layout, place: str) -> Iterator[tuple[str, 
 
 def _in_order(
     items: Iterator[tuple[str, float]],
-    layout: Layout,
+    layout: PoseLayout,
     vendor: str,
     place: str,
 ) -> list[float]:

@@ -46,7 +46,7 @@ _ENTRIES = tuple(f"T{i}{j}" for i in range(4) for j in range(4))
 _TRANSLATION = ("T03", "T13", "T23")
 
 
-class Layout(NamedTuple):
+class PoseLayout(NamedTuple):
     """Names of a pose's numbers, in order; what the rotation's are, the last first if `reverse`;
     and the units of lengths and of angles.
     """
@@ -81,7 +81,7 @@ def layout(
     mm: bool | None = None,
     deg: bool | None = None,
     joints: bool = False,
-) -> Layout:
+) -> PoseLayout:
     """Layout of a format.
 
     Parameters: those of `poekin.poses.from_numbers`; joints, whether `deg` is said of joints too: a
@@ -109,7 +109,7 @@ def layout(
     return asked
 
 
-def _check_units(asked: Layout, found: Layout) -> None:
+def _check_units(asked: PoseLayout, found: PoseLayout) -> None:
     """Refuse units that a controller does not have."""
     for unit, own in zip(asked.units, found.units, strict=True):
         if unit != own:
@@ -121,7 +121,7 @@ def _check_units(asked: Layout, found: Layout) -> None:
             )
 
 
-def _with_order(layout: Layout, quaternion: Any) -> Layout:
+def _with_order(layout: PoseLayout, quaternion: Any) -> PoseLayout:
     """Layout with the order of its quaternion, which has to be said."""
     if not isinstance(quaternion, str) or quaternion not in ORDERS:
         asked = f"got {safe_repr(quaternion)}"
@@ -141,10 +141,10 @@ def _robot(
     rotation: Rotation,
     *,
     reverse: bool = False,
-) -> Layout:
+) -> PoseLayout:
     """Layout of a controller in mm and degrees."""
     names = tuple(columns.split())
-    return Layout(format, names, rotation, reverse, "mm", "deg")
+    return PoseLayout(format, names, rotation, reverse, "mm", "deg")
 
 
 OF_CONTROLLERS: dict[str, str] = {
@@ -163,15 +163,15 @@ OF_CONTROLLERS: dict[str, str] = {
 
 _VECTOR = ("x", "y", "z", "rx", "ry", "rz")
 _TABLE = (
-    Layout("matrix", _ENTRIES, "matrix"),
-    Layout("12", _ENTRIES[:12], "matrix"),
-    Layout("16", _ENTRIES, "matrix"),
-    Layout("quat", (), "wxyz"),
-    Layout("7", (), "wxyz"),
-    Layout("ros", ("x", "y", "z", "qx", "qy", "qz", "qw"), "xyzw"),
-    Layout("rotvec", _VECTOR, "vector"),
-    Layout("ur", _VECTOR, "vector"),
-    Layout("rpy", ("x", "y", "z", "roll", "pitch", "yaw"), "zyx", True),
+    PoseLayout("matrix", _ENTRIES, "matrix"),
+    PoseLayout("12", _ENTRIES[:12], "matrix"),
+    PoseLayout("16", _ENTRIES, "matrix"),
+    PoseLayout("quat", (), "wxyz"),
+    PoseLayout("7", (), "wxyz"),
+    PoseLayout("ros", ("x", "y", "z", "qx", "qy", "qz", "qw"), "xyzw"),
+    PoseLayout("rotvec", _VECTOR, "vector"),
+    PoseLayout("ur", _VECTOR, "vector"),
+    PoseLayout("rpy", ("x", "y", "z", "roll", "pitch", "yaw"), "zyx", True),
     _robot("abc", "X Y Z A B C", "zyx"),
     _robot("kuka", "X Y Z A B C", "zyx"),
     _robot("wpr", "X Y Z W P R", "zyx", reverse=True),

@@ -13,7 +13,7 @@ from ...groups import euler, se3, so3
 from ...groups.arrays import Array, map_kernel, poses
 from ...groups.so3.exp_log import exp_of_vectors
 from ...model.kinematics.analytic import quaternion_wxyz
-from .layout import Layout
+from .layout import PoseLayout
 
 NORM = 1e-3
 """Largest deviation from 1 of a quaternion's length; it is divided by its length."""
@@ -24,7 +24,7 @@ _OF_WXYZ = {"wxyz": [0, 1, 2, 3], "xyzw": [1, 2, 3, 0]}
 
 def to_poses(
     rows: Array,
-    layout: Layout,
+    layout: PoseLayout,
     where: Callable[[int], str],
 ) -> Array:
     """T (N, 4, 4) of rows (N, k). A row that is not finite gives NaN, and no error.
@@ -51,7 +51,7 @@ def to_poses(
         raise
 
 
-def to_rows(T: Array, layout: Layout) -> Array:
+def to_rows(T: Array, layout: PoseLayout) -> Array:
     """Rows (N, k) of poses (N, 4, 4); of the two quaternions of a rotation the one with w >= 0."""
     scale = 1000.0 if layout.length == "mm" else 1.0
     R = T[:, :3, :3]
@@ -64,7 +64,7 @@ def to_rows(T: Array, layout: Layout) -> Array:
     return np.concatenate([p, _rotation_numbers(R, layout)], axis=1) + 0.0
 
 
-def _in_metres(lengths: Array, layout: Layout) -> Array:
+def _in_metres(lengths: Array, layout: PoseLayout) -> Array:
     if layout.length == "mm":
         return lengths / 1000.0
     return lengths
@@ -73,7 +73,7 @@ def _in_metres(lengths: Array, layout: Layout) -> Array:
 def _rotations(
     rows: Array,
     good: np.ndarray,
-    layout: Layout,
+    layout: PoseLayout,
     where: Callable[[int], str],
 ) -> Array:
     """R of the rows that are good."""
@@ -97,7 +97,7 @@ def _rotations(
     return euler.rotations(numbers[good], sequence, degrees=degrees)
 
 
-def _rotation_numbers(R: Array, layout: Layout) -> Array:
+def _rotation_numbers(R: Array, layout: PoseLayout) -> Array:
     degrees = layout.angle == "deg"
     if layout.rotation in _OF_WXYZ:
         return quaternion_wxyz(R)[:, _OF_WXYZ[layout.rotation]]

@@ -14,7 +14,7 @@ from ..text import csv_rows
 from ..text.csv_header import Columns
 from ..text.numbers import real
 from . import controller_text, pose_rows, ros_text
-from .layout import Layout, PoseFormat, QuaternionOrder, layout
+from .layout import PoseFormat, PoseLayout, QuaternionOrder, layout
 
 LARGEST = 2**28
 """Characters of a text of poses."""
@@ -102,7 +102,7 @@ def said_units(mm: bool | None, deg: bool | None) -> tuple[str, ...]:
 
 def read_file(
     path: str | os.PathLike[str] | int,
-    chosen: Layout,
+    chosen: PoseLayout,
     said: tuple[str, ...],
     where: str = "",
     progress: Progress | None = None,
@@ -128,7 +128,7 @@ def _whole(stream: TextIO, where: str) -> str:
 
 def read_text(
     text: str,
-    chosen: Layout,
+    chosen: PoseLayout,
     said: tuple[str, ...],
     where: str,
     progress: Progress | None = None,
@@ -156,7 +156,7 @@ def _has_number(text: str) -> bool:
     return any(real(word) is not None for word in re.split(r"[\s,;]+", text))
 
 
-def pose_columns(chosen: Layout, said: tuple[str, ...] = ()) -> Columns:
+def pose_columns(chosen: PoseLayout, said: tuple[str, ...] = ()) -> Columns:
     """Columns of a layout in a CSV file; of "matrix", the fourth row may be left out."""
     last = chosen.columns[12:] * (chosen.format == "matrix")
     return Columns(chosen.columns, "column", chosen.units, said, last=last)

@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import InputError, PoekinWarning, quote
 from ...groups.arrays import Array
 from ..text.numbers import real
-from .layout import Layout, layout
+from .layout import PoseLayout, layout
 from .places import places
 
 _WORD = r"\s*([^\s,{}]+)(?:\s*,)?\s*"
@@ -30,7 +30,7 @@ class Read(NamedTuple):
     """Rows of numbers, their layout, and where each stands."""
 
     rows: Array
-    layout: Layout
+    layout: PoseLayout
     places: list[str]
 
 
@@ -84,7 +84,7 @@ def _tf2_echo(text: str, where: str) -> Read:
     )
 
 
-def _warn_of_digits(words: list[str], chosen: Layout, place: str) -> None:
+def _warn_of_digits(words: list[str], chosen: PoseLayout, place: str) -> None:
     """Say what the decimals of the text leave open: half a unit of the last one in each number."""
     decimals = max(len(word.strip().partition(".")[2]) for word in words)
     half = 0.5 * 10.0**-decimals

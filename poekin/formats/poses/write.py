@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from ...errors import InputError
 from ...groups import arrays
 from . import pose_rows
-from .layout import Layout, PoseFormat, QuaternionOrder, layout
+from .layout import PoseFormat, PoseLayout, QuaternionOrder, layout
 
 _BRACKETS = {
     "ur": "p[{}]",
@@ -78,7 +78,7 @@ def write(
     return "\n".join(line(row, chosen) for row in rows)
 
 
-def line(row: arrays.Array, chosen: Layout) -> str:
+def line(row: arrays.Array, chosen: PoseLayout) -> str:
     """The numbers of one pose in the notation of its format."""
     words = [_word(x) for x in row]
     vendor = chosen.format

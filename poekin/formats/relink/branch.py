@@ -30,7 +30,7 @@ class Branch(NamedTuple):
     tool: Array | None
 
 
-class Axis(NamedTuple):
+class JointAxis(NamedTuple):
     """Axis of a joint in the top link's frame: direction, point nearest to the origin, None of a
     prismatic joint; pitch.
     """
@@ -78,7 +78,7 @@ def branch_of(
     return Branch(result, None)
 
 
-def _axes(chain: Chain) -> list[Axis]:
+def _axes(chain: Chain) -> list[JointAxis]:
     """Axes of a chain's joints, in order."""
     axes = []
     for screw, turns, slides in zip(
@@ -89,15 +89,15 @@ def _axes(chain: Chain) -> list[Axis]:
     ):
         if turns:
             w = screw[:3]
-            axes.append(Axis(w, np.cross(w, screw[3:]), float(slides)))
+            axes.append(JointAxis(w, np.cross(w, screw[3:]), float(slides)))
         else:
-            axes.append(Axis(screw[3:], None, 0.0))
+            axes.append(JointAxis(screw[3:], None, 0.0))
     return axes
 
 
 def _moved(
     joint: Joint,
-    axis: Axis,
+    axis: JointAxis,
     H: Array,
     above: Array,
     turn: Turn,
@@ -126,7 +126,7 @@ def _moved(
 
 def _pointing(
     joint: Joint,
-    axis: Axis,
+    axis: JointAxis,
     G: Array,
 ) -> Joint:
     """Joint whose axis, in a link at G, points as the new one does, not against it."""

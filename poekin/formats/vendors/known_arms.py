@@ -139,7 +139,7 @@ RIZON = (Z, Y, Z, Y, Z, Y, Z)
 """Axes of a Rizon, in rizon_arm.xacro where its files do not state them."""
 
 
-class Fit(NamedTuple):
+class KnownArmFit(NamedTuple):
     """A known arm and the axis of it that is farthest off."""
 
     arm: KnownArm
@@ -154,10 +154,10 @@ class KnownArm(NamedTuple):
     chain: Chain
     places: Array
 
-    def fit(self, chain: Chain) -> Fit:
+    def fit(self, chain: Chain) -> KnownArmFit:
         """Fit of a chain of as many joints. What hangs behind the last joint does not count."""
         found = axis_deviations(self.chain, chain, self.places)
-        return Fit(self, max(found, key=lambda deviation: deviation.score))
+        return KnownArmFit(self, max(found, key=lambda deviation: deviation.score))
 
 
 def known_arms(n: int) -> tuple[KnownArm, ...]:
@@ -173,7 +173,7 @@ def numbered_arms(n: int) -> tuple[KnownArm, ...]:
     return tuple(arm for arm in _others() if len(arm.chain.joint_names) == n)
 
 
-def best_fit(chain: Chain) -> Fit | None:
+def best_fit(chain: Chain) -> KnownArmFit | None:
     """The known arm that a chain fits best, from the vendor's base on; None if it fits none."""
     fits = [arm.fit(chain) for arm in known_arms(len(chain.joint_names))]
     best = min(fits, key=lambda fit: fit.worst.score, default=None)

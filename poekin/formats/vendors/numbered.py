@@ -12,7 +12,7 @@ from ...model.provenance import warn
 from ..text.yaml_text import MappingNode
 from . import yaml_keys
 from .calibration import FactoryCalibration
-from .known_arms import RIZON, Fit, numbered_arms
+from .known_arms import RIZON, KnownArmFit, numbered_arms
 from .naming import Vendor, flexiv, ufactory
 
 SIZES = (5, 6, 7)
@@ -73,7 +73,7 @@ def calibration(
     return FactoryCalibration(poses, mark, naming, axes, flange)
 
 
-def _fit(poses: Array) -> Fit:
+def _fit(poses: Array) -> KnownArmFit:
     """The arm of UFACTORY or Flexiv that poses fit best whose joints turn about its axes."""
     found = []
     for arm in numbered_arms(len(poses)):

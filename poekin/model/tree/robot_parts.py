@@ -15,7 +15,7 @@ from ..readings.coupled import reading_limits
 from ..readings.statements import Statements, parse_statements
 from .coupling import Coupling, coupling_of, shared_limits
 from .tree import Tree, tree_of
-from .tree_arrays import Layout, layout_of
+from .tree_arrays import TreeLayout, layout_of
 
 
 class RobotParts(NamedTuple):
@@ -37,7 +37,7 @@ class RobotParts(NamedTuple):
     bounds: np.ndarray
     limits: np.ndarray
     torn: np.ndarray
-    layout: Layout
+    layout: TreeLayout
     readings: np.ndarray | None = None
 
 

@@ -16,7 +16,7 @@ from .coupling import Coupling
 from .tree import Tree
 
 
-class Layout(NamedTuple):
+class TreeLayout(NamedTuple):
     """One row a joint in the order of `Tree.order`; link k + 1 is the child of row k, link 0 the
     root.
 
@@ -35,7 +35,7 @@ class Layout(NamedTuple):
     shift: np.ndarray
 
 
-def layout_of(tree: Tree, joints: Sequence[Joint], coupling: Coupling) -> Layout:
+def layout_of(tree: Tree, joints: Sequence[Joint], coupling: Coupling) -> TreeLayout:
     """The layout of a robot, read-only."""
     order = np.array(tree.order, dtype=np.int64)
     link_row = np.zeros(len(tree.parent_joint), dtype=np.int64)
@@ -52,11 +52,11 @@ def layout_of(tree: Tree, joints: Sequence[Joint], coupling: Coupling) -> Layout
         coupling.ratio[order],
         coupling.shift[order],
     )
-    return Layout(*map(read_only, arrays))
+    return TreeLayout(*map(read_only, arrays))
 
 
 def link_poses(
-    layout: Layout,
+    layout: TreeLayout,
     values: np.ndarray,
     free: Mapping[int, np.ndarray],
 ) -> np.ndarray:

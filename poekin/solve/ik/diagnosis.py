@@ -15,7 +15,7 @@ from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ..joint_units import bounds
-from .ik_problem import Problem
+from .ik_problem import IKProblem
 from .joint_domain import JointDomain, free_ranges
 from .least_error import least_error, slope_at
 from .solution import BAD_TARGET, ITERATIONS, LIMITS, SOLVED, UNREACHABLE, Names
@@ -46,7 +46,7 @@ class Causes(NamedTuple):
 
 
 def diagnose(
-    problem: Problem,
+    problem: IKProblem,
     targets: Array,
     first: Array,
     q: Array,
@@ -71,7 +71,7 @@ def diagnose(
 
 
 def find_causes(
-    problem: Problem,
+    problem: IKProblem,
     targets: Array,
     q: Array,
     info: Array,
@@ -150,7 +150,7 @@ def distance_beyond_reach(
 
 
 def settle(
-    problem: Problem,
+    problem: IKProblem,
     targets: Array,
     q: Array,
     info: Array,
@@ -171,7 +171,7 @@ def settle(
 
 
 def reachable_tasks(
-    problem: Problem,
+    problem: IKProblem,
     targets: Array,
     first: Array,
     rows: np.ndarray,

@@ -71,7 +71,7 @@ def items(lock: Any) -> Any:
     return None if lock is None else tuple(lock.items())
 
 
-class Problem:
+class IKProblem:
     """Task, domain of the joints and kernel options of one arm, in joint units (`joint_units`).
 
     Attributes: settings; given, the user's chain; units; fast, the compiled chain in joint units;
@@ -148,7 +148,7 @@ class Problem:
         self._error_parts(self.task.code, self.task.axis, T, target, J, e)
         return e
 
-    def with_task(self, name: TaskName) -> Problem:
+    def with_task(self, name: TaskName) -> IKProblem:
         """Problem that differs in its task. Raises: InputError where the arm has no plane for it."""
         settings = self.settings._replace(task=name, axis=None)
         return make_problem(self.given.compile(), settings)
@@ -212,10 +212,10 @@ class Problem:
         return q, info
 
 
-_PROBLEMS: ChainCache[Problem] = ChainCache()
+_PROBLEMS: ChainCache[IKProblem] = ChainCache()
 
 
-def make_problem(fast: CompiledChain, settings: Settings) -> Problem:
+def make_problem(fast: CompiledChain, settings: Settings) -> IKProblem:
     """Problem of an arm with these settings, made once and kept. Raises: InputError, UnknownName,
     ShapeError.
     """
@@ -225,7 +225,7 @@ def make_problem(fast: CompiledChain, settings: Settings) -> Problem:
         kept = _PROBLEMS.get(fast, key)
     except TypeError:  # no number, and so no key: the checks say what it is
         kept = None
-    return kept or _PROBLEMS.keep(fast, Problem(fast, settings), key)
+    return kept or _PROBLEMS.keep(fast, IKProblem(fast, settings), key)
 
 
 def _task(settings: Settings, chain: Chain, domain: JointDomain) -> Task:

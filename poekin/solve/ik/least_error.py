@@ -11,7 +11,7 @@ import numpy as np
 
 from ...formulas.inverse import pose_error
 from ...groups.arrays import Array
-from .ik_problem import Problem
+from .ik_problem import IKProblem
 
 STEPS = 30
 """Steps towards a pose that is out of reach."""
@@ -51,7 +51,7 @@ def least_error(slope: Callable[[Array], Slope], q: Array, low: Array, high: Arr
     return q
 
 
-def slope_at(problem: Problem, target: Array, q: Array) -> Slope:
+def slope_at(problem: IKProblem, target: Array, q: Array) -> Slope:
     """Slope at q (m,), in joint units, with the error of the compiled descent.
 
     Its g is exact for an arm that has to trade position for rotation; others lose nothing by e.

@@ -12,7 +12,7 @@ from ...results import Progress
 from .choice.nearest import nearest
 from .choice.redundancy import Objective, optimise
 from .diagnosis import KIND, Causes, diagnose
-from .ik_problem import Problem
+from .ik_problem import IKProblem
 from .joint_domain import first_tries, for_targets
 from .solution import SOLVED, UNREACHABLE, Solution
 
@@ -21,7 +21,7 @@ AT_ONCE = 20_000
 
 
 def solve(
-    problem: Problem,
+    problem: IKProblem,
     T: Array,
     q0: Any = None,
     *,
@@ -73,7 +73,7 @@ def solve(
 
 
 def _in_parts(
-    problem: Problem,
+    problem: IKProblem,
     rows: Array,
     first: Array,
     near: Array | None,

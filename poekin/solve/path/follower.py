@@ -12,7 +12,7 @@ import numpy as np
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
 from ...results import Progress
-from ..ik.ik_problem import Problem
+from ..ik.ik_problem import IKProblem
 from ..ik.least_error import least_error, slope_at
 from ..ik.solution import ITERATIONS, Names, Solution
 from ..ik.solver import solve
@@ -37,7 +37,7 @@ class Follower:
     (`joint_units`).
     """
 
-    problem: Problem
+    problem: IKProblem
     targets: Array
     most: Array
     progress: Progress | None

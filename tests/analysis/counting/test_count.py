@@ -317,7 +317,7 @@ def test_the_forms_of_links_are_poses():
             shift = 0.0 if kind == "revolute" else 0.1 * x
             sine, cosine = (math.sin(x), math.cos(x)) if turns else (0.0, 1.0)
             T = getattr(count_scalars, form)(
-                count_scalars.Motion(kind, x, sine, cosine, shift), rng
+                count_scalars.JointMotion(kind, x, sine, cosine, shift), rng
             )
             R = np.array(T[:9], float).reshape(3, 3)
             np.testing.assert_allclose(R @ R.T, np.eye(3), rtol=0, atol=1e-14)
@@ -552,7 +552,7 @@ def test_the_links_of_a_form_turn_or_slide_as_their_joint_does(kind):
         sine, cosine, shift = (math.sin(x), math.cos(x), 0.0) if turns else (0.0, 1.0, x)
         T = np.eye(4)
         flat = getattr(count_scalars, form)(
-            count_scalars.Motion(kind, x, sine, cosine, shift), count_scalars.generator()
+            count_scalars.JointMotion(kind, x, sine, cosine, shift), count_scalars.generator()
         )
         T[:3, :3], T[:3, 3] = np.reshape(flat[:9], (3, 3)), flat[9:]
         return T

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.cli.formats.units import Units, beyond_limits
+from poekin.cli.formats.units import SaidUnits, beyond_limits
 from poekin.formats.poses.layout import FORMATS, OF_CONTROLLERS, layout
 from poekin.solve.calibration.measurements.simulated import simulated
 
@@ -212,9 +212,9 @@ def test_of_many_configurations_the_first_beyond_the_limits_is_named(crane, poek
         " 250 m is outside its limits, 0 to 1; are these mm? --mm says so\n"
     )
     chain = pk.load(crane).chain(tip="hook")
-    assert beyond_limits(chain, np.array([[100.0, 1 + 1e-10]]), Units()) == ""  # of rounding
-    assert beyond_limits(chain, np.array([[0.0, 1.1]]), Units(mm=True)).endswith("0 to 1000")
-    assert beyond_limits(chain, np.empty((0, 2)), Units()) == ""
+    assert beyond_limits(chain, np.array([[100.0, 1 + 1e-10]]), SaidUnits()) == ""  # of rounding
+    assert beyond_limits(chain, np.array([[0.0, 1.1]]), SaidUnits(mm=True)).endswith("0 to 1000")
+    assert beyond_limits(chain, np.empty((0, 2)), SaidUnits()) == ""
 
 
 def test_a_target_in_millimetres_is_told_to_be(poekin, tmp_path):

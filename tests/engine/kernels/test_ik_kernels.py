@@ -135,7 +135,7 @@ def descended(
     row = options(**changed)
     row[codes.WEIGHTS :] = weights
     m = len(q)
-    problem = ik_kernels.Problem(ARM, limits, fixed, row)  # type: ignore[arg-type]
+    problem = ik_kernels.KernelProblem(ARM, limits, fixed, row)  # type: ignore[arg-type]
     return q, ik_kernels.descend(problem, target, q, ik_kernels.scratch_of_try(m))
 
 
@@ -431,7 +431,7 @@ PERIODS = np.array([2 * math.pi, 0.0, 2 * math.pi, 0.0])
 
 
 def is_same(target: Any, a: Any, b: Any, middle: np.ndarray, limit: float) -> bool:
-    problem: Any = ik_kernels.Problem(ARM, WIDE, FREE, options())  # type: ignore[arg-type]
+    problem: Any = ik_kernels.KernelProblem(ARM, WIDE, FREE, options())  # type: ignore[arg-type]
     return ik_all_kernel.is_same(
         problem, target, (a, b, middle), PERIODS, limit, ik_kernels.scratch_of_try(4)
     )

@@ -13,7 +13,7 @@ import poekin as pk
 from poekin.errors import InputError, PoekinWarning, PoseError, ShapeError, UnknownName
 from poekin.model import screw
 from poekin.solve.ik.ik import ik
-from poekin.solve.ik.ik_problem import STEPS, Problem, Settings, make_problem
+from poekin.solve.ik.ik_problem import STEPS, IKProblem, Settings, make_problem
 from poekin.solve.ik.joint_domain import make_joint_domain
 from poekin.solve.ik.solution import REASONS
 from poekin.solve.ik_all.ik_all import ik_all
@@ -728,12 +728,12 @@ def test_the_first_try_for_the_nearest_begins_at_q0_or_else_at_what_is_to_be_nea
     given, monkeypatch
 ):
     q = UR5.random(2, 3)
-    q0, near, begun, whole = q + 0.1, q - 0.2, [], Problem.solve
+    q0, near, begun, whole = q + 0.1, q - 0.2, [], IKProblem.solve
 
     def solve(self, targets, indices, q0, **options):
         begun.append(q0.copy())
         return whole(self, targets, indices, q0, **options)
 
-    monkeypatch.setattr(Problem, "solve", solve)
+    monkeypatch.setattr(IKProblem, "solve", solve)
     ik(UR5, UR5.fk(q), q0=q0 if given else None, nearest_to=near)
     np.testing.assert_array_equal(begun[0], np.clip(q0 if given else near, *UR5.limits.T))

@@ -12,7 +12,7 @@ from ....groups.arrays import Array
 from ..model.problem import Problem
 from ..model.tsqr import least_squares, qr_r
 from .losses import LossName, loss
-from .minimise import FitOptions, Outcome, Step, minimise, regular
+from .minimise import FitOptions, Minimum, Step, minimise, regular
 from .noise import EVEN, Noise, estimate_noise
 
 _ROUNDS = 10
@@ -108,7 +108,7 @@ def _change(a: Noise, b: Noise) -> float:
 def _covariance(
     problem: Problem,
     free: Array,
-    outcome: Outcome,
+    outcome: Minimum,
     noise: Noise,
     options: FitOptions,
 ) -> Array:

@@ -48,7 +48,7 @@ class Step(NamedTuple):
     damping: float
 
 
-class Outcome(NamedTuple):
+class Minimum(NamedTuple):
     """End of the search: p; whether it converged; the steps; the whitened Jacobian (M, k) in the
     free directions.
     """
@@ -92,7 +92,7 @@ def minimise(
     noise: Noise,
     p: Array,
     options: FitOptions,
-) -> Outcome:
+) -> Minimum:
     """The p of the least cost, sum of rho(s) and of (p / prior)^2, among p + scale * free z.
 
     free (P, k): directions, in rad and reaches.
@@ -108,7 +108,7 @@ def minimise(
     while True:
         rows, jacobian = _rows(objective, p)
         if cost == 0.0 or len(steps) >= options.max_iterations:
-            return Outcome(p, cost == 0.0, steps, jacobian)
+            return Minimum(p, cost == 0.0, steps, jacobian)
         linear = _triangular(objective, p, rows)
         done = _is_last(linear, cost)
         trial = _trial(objective, p, linear, damping)
@@ -116,7 +116,7 @@ def minimise(
             done = bool(done or _exact(problem, p))
             if done or damping > _MOST_DAMPING:
                 # what is left cannot be told from rounding, or no direction leads down
-                return Outcome(p, done, steps, jacobian)
+                return Minimum(p, done, steps, jacobian)
             damping = max(_FIRST_DAMPING, 10.0 * damping)
             trial = _trial(objective, p, linear, damping)
         length = float(np.linalg.norm(trial.z))
@@ -129,7 +129,7 @@ def minimise(
             damping = 0.0
         if done:
             # the step was too short to change the Jacobian
-            return Outcome(p, True, steps, jacobian)
+            return Minimum(p, True, steps, jacobian)
 
 
 def _triangular(objective: _Objective, p: Array, rows: Array) -> _Linear:

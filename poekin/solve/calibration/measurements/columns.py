@@ -7,8 +7,7 @@ from collections import Counter
 from typing import NamedTuple
 
 from ....errors import InputError, UnknownName, join_names, quote, suggest
-from ....formats.poses.layout import OF_CONTROLLERS
-from ....formats.poses.layout import Layout as PoseLayout
+from ....formats.poses.layout import OF_CONTROLLERS, PoseLayout
 from ....formats.poses.layout import layout as pose_layout
 from ....formats.text.numbers import real
 
@@ -16,7 +15,7 @@ _OF_POSES = ("poses", "eye-in-hand", "eye-to-hand")
 _LAYOUTS = "T00 ... T23, or x y z qw qx qy qz, or x y z, or x1 y1 z1 x2 ..., or distance"
 
 
-class Layout(NamedTuple):
+class ColumnLayout(NamedTuple):
     """The columns of a measurement, in the order in which they are taken, and the kinds that they
     may be of.
 
@@ -31,9 +30,9 @@ class Layout(NamedTuple):
 POSES = (pose_layout("16"), pose_layout("12"), pose_layout("quat", "wxyz"))
 """What the numbers of poses may be where no format is given: their names tell."""
 _OTHERS = (
-    Layout(("px", "py", "pz"), ("points",)),
-    Layout(("x", "y", "z"), ("points",)),
-    Layout(("distance",), ("distances",)),
+    ColumnLayout(("px", "py", "pz"), ("points",)),
+    ColumnLayout(("x", "y", "z"), ("points",)),
+    ColumnLayout(("distance",), ("distances",)),
 )
 
 
@@ -42,9 +41,9 @@ def numbered(count: int) -> tuple[str, ...]:
     return tuple(f"q{i + 1}" for i in range(count))
 
 
-def of_poses(poses: tuple[PoseLayout, ...]) -> tuple[Layout, ...]:
+def of_poses(poses: tuple[PoseLayout, ...]) -> tuple[ColumnLayout, ...]:
     """The layouts that a file may have, with poses of these."""
-    return (*(Layout(pose.columns, _OF_POSES, pose) for pose in poses), *_OTHERS)
+    return (*(ColumnLayout(pose.columns, _OF_POSES, pose) for pose in poses), *_OTHERS)
 
 
 STANDARD = of_poses(POSES)
@@ -55,8 +54,8 @@ def parse_header(
     q_names: tuple[str, ...],
     ignore: tuple[str, ...],
     here: str,
-    fixed: tuple[Layout, ...] = STANDARD,
-) -> tuple[tuple[str, ...], Layout]:
+    fixed: tuple[ColumnLayout, ...] = STANDARD,
+) -> tuple[tuple[str, ...], ColumnLayout]:
     """The names of the coordinates and the layout of the measurement that a header's columns make,
     with none left.
 
@@ -93,7 +92,7 @@ def parse_header(
 def _fault(
     rest: list[str],
     here: str,
-    fixed: tuple[Layout, ...],
+    fixed: tuple[ColumnLayout, ...],
 ) -> InputError | UnknownName:
     """The error of columns that make no measurement."""
     if not rest:
@@ -132,17 +131,17 @@ def _formats(words: set[str]) -> list[str]:
     return [x.format for x in layouts if there.issuperset(map(str.casefold, x.columns))]
 
 
-def _expected(fixed: tuple[Layout, ...]) -> str:
+def _expected(fixed: tuple[ColumnLayout, ...]) -> str:
     if len(fixed) < len(STANDARD):
         return ", or ".join(map(describe, fixed))
     return _LAYOUTS
 
 
-def _points(words: set[str]) -> Layout:
+def _points(words: set[str]) -> ColumnLayout:
     """The columns x1 y1 z1 ... xk yk zk of as many points as the words speak of."""
     numbers = [int(word[1:]) for word in words if re.fullmatch(r"[xyz][1-9][0-9]{0,5}", word)]
     count = min(max(numbers, default=0), len(words))
-    return Layout(point_columns(count), ("points",))
+    return ColumnLayout(point_columns(count), ("points",))
 
 
 def point_columns(count: int) -> tuple[str, ...]:
@@ -150,7 +149,7 @@ def point_columns(count: int) -> tuple[str, ...]:
     return tuple(f"{axis}{i + 1}" for i in range(count) for axis in "xyz")
 
 
-def describe(layout: Layout) -> str:
+def describe(layout: ColumnLayout) -> str:
     """A layout's columns as messages call them."""
     names = layout.columns
     if len(names) > 7:

@@ -31,7 +31,7 @@ from ....model.chain import Chain
 from ....model.checks import finite
 from ....model.coordinates import coordinates
 from . import columns
-from .columns import Layout
+from .columns import ColumnLayout
 from .header import NO_HEADER, SI, Convention, read_header
 from .measurement import Measurement, MeasurementKind, rows_of
 from .points import Distances, Points
@@ -47,14 +47,14 @@ KINDS: dict[str, type[Measurement]] = {
 }
 
 
-class Table(NamedTuple):
+class MeasurementTable(NamedTuple):
     """The rows of a file of measurements: joint readings q (N, m), the measured values (N, k) in
     the order of the layout's columns, and the file and line of each row.
     """
 
     q: Array
     values: Array
-    layout: Layout
+    layout: ColumnLayout
     sources: list[str]
 
 
@@ -143,7 +143,7 @@ def read_table(
     ignore: Iterable[str] = (),
     progress: csv_rows.Progress | None = None,
     convention: Convention = SI,
-) -> Table:
+) -> MeasurementTable:
     """The numbers of a file of measurements, before anything is made of them; the file is read
     once, so it may be a pipe. Parameters and errors: those of `read`.
     """
@@ -176,7 +176,7 @@ def read_table(
     for k, convert in header.conversions:
         rows[:, k] = convert(rows[:, k])
     q, values = np.split(rows, [chain.dof], axis=1)
-    return Table(q, values, header.layout, sources)
+    return MeasurementTable(q, values, header.layout, sources)
 
 
 def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
@@ -240,7 +240,7 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
 
 
 def make_measurement(
-    table: Table,
+    table: MeasurementTable,
     kind: str | None,
     known: dict[str, Any],
 ) -> Measurement:
@@ -257,7 +257,7 @@ def make_measurement(
 
 
 def _values(
-    table: Table,
+    table: MeasurementTable,
     kind: str,
     known: dict[str, Any],
 ) -> Array:

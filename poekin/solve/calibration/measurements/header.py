@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from ....errors import PoekinError
-from ....formats.poses.layout import Layout as PoseLayout
-from ....formats.poses.layout import LengthUnit
+from ....formats.poses.layout import LengthUnit, PoseLayout
 from ....formats.poses.layout import layout as pose_layout
 from ....formats.poses.read import said_units
 from ....formats.text import csv_header
 from ....formats.text.csv_header import Columns, Conversion, Heading
 from ....model.chain import Chain
-from .columns import POSES, Layout, numbered, of_poses, parse_header
+from .columns import POSES, ColumnLayout, numbered, of_poses, parse_header
 
 
 class Convention(NamedTuple):
@@ -37,7 +36,7 @@ class Convention(NamedTuple):
         """Unit of lengths."""
         return "mm" if self.mm else "m"
 
-    def layouts(self) -> tuple[tuple[Layout, ...], ...]:
+    def layouts(self) -> tuple[tuple[ColumnLayout, ...], ...]:
         """The layouts that a file may have, in the order in which they are tried."""
         if self.pose is None:
             return (of_poses(tuple(pose._replace(length=self.length) for pose in POSES)),)
@@ -58,11 +57,11 @@ class Header(NamedTuple):
 
     names: tuple[str, ...]
     indices: list[int]
-    layout: Layout
+    layout: ColumnLayout
     conversions: list[tuple[int, Conversion]]
 
 
-NO_HEADER = Header((), [], Layout((), ()), [])
+NO_HEADER = Header((), [], ColumnLayout((), ()), [])
 SI = Convention()
 
 
@@ -93,7 +92,7 @@ def _headings(
     words: list[str],
     chain: Chain,
     ignore: tuple[str, ...],
-    layouts: tuple[Layout, ...],
+    layouts: tuple[ColumnLayout, ...],
 ) -> list[Heading]:
     """Names and units of a header's words, of those that a file may have."""
     measured = [name for layout in layouts for name in layout.columns]
@@ -106,7 +105,7 @@ def _headings(
 def _header(
     headings: list[Heading],
     names: tuple[str, ...],
-    layout: Layout,
+    layout: ColumnLayout,
     chain: Chain,
     convention: Convention,
     here: str,

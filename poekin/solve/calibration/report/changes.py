@@ -69,7 +69,7 @@ def milli(value: float) -> str:
     return f"{1e3 * value + 0.0:.3g}"
 
 
-class Change(NamedTuple):
+class AxisChange(NamedTuple):
     """The tilts (rad) or shifts (m) of one joint's axis: values (k,), k = 0 or 2, with covariance
     (k, k).
     """
@@ -102,20 +102,20 @@ class Change(NamedTuple):
         return TWO_SIGMA * float(np.sqrt(max(variance, 0.0)))
 
 
-class Joint(NamedTuple):
+class MovableJoint(NamedTuple):
     """One joint whose axis could move."""
 
     name: str
-    tilt: Change
-    shift: Change
+    tilt: AxisChange
+    shift: AxisChange
 
 
-def joints(found: CalibrationData) -> list[Joint]:
+def joints(found: CalibrationData) -> list[MovableJoint]:
     """The joints whose axes could move, in the order of the chain."""
     own = found.error_model.parameters
     tilted = dict.fromkeys(p.owner for p in own if p.what.startswith(TILT))
     return [
-        Joint(
+        MovableJoint(
             name,
             _change(found, name, TILT),
             _change(found, name, SHIFT),
@@ -124,13 +124,13 @@ def joints(found: CalibrationData) -> list[Joint]:
     ]
 
 
-def _change(found: CalibrationData, name: str, word: str) -> Change:
+def _change(found: CalibrationData, name: str, word: str) -> AxisChange:
     own = found.error_model.parameters
     mine = [k for k, p in enumerate(own) if p.owner == name and p.what.startswith(word)]
-    return Change(found.values[mine], found.covariance[np.ix_(mine, mine)])
+    return AxisChange(found.values[mine], found.covariance[np.ix_(mine, mine)])
 
 
-def row(joint: Joint) -> tuple[str, ...]:
+def row(joint: MovableJoint) -> tuple[str, ...]:
     """Name, tilt and its interval (mrad), shift and its interval (mm)."""
     moved = (joint.tilt, joint.shift)
     figures = (x for change in moved for x in (change.size, change.margin))

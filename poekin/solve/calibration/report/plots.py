@@ -12,7 +12,7 @@ from ....groups.arrays import Array
 from ... import svg
 from ...svg import GRID, INK, PALE
 from ..fit.minimise import Step
-from .changes import Change, Joint, NamedResiduals
+from .changes import AxisChange, MovableJoint, NamedResiduals
 
 PURPOSE = "a report of a calibration"
 WIDTH = 9.0
@@ -98,7 +98,7 @@ def _shares(values: Array) -> tuple[Array, Array]:
     return x[kept], 100.0 * (kept + 1) / len(x)
 
 
-def joints(found: Sequence[Joint]) -> str:
+def joints(found: Sequence[MovableJoint]) -> str:
     """Tilt and shift of each joint's axis in its two directions, with 95 % intervals."""
 
     def draw(figure: Any) -> None:
@@ -113,7 +113,7 @@ def joints(found: Sequence[Joint]) -> str:
     return _inline(1.3 + 0.36 * len(found), draw)
 
 
-def _bars(axes: Any, label: str, changes: Sequence[Change]) -> None:
+def _bars(axes: Any, label: str, changes: Sequence[AxisChange]) -> None:
     """The changes of each joint in its first and its second direction, with their intervals."""
     axes.axvline(0, color=PALE, linewidth=0.8)
     for k, style in enumerate(_DIRECTIONS):

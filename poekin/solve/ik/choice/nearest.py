@@ -9,7 +9,7 @@ import numpy as np
 from ....engine.kernels import ik_codes as codes
 from ....groups.arrays import Array
 from ...joint_units import bounds
-from ..ik_problem import Problem
+from ..ik_problem import IKProblem
 
 NEAREST_OF = 48
 """Number of tries for each target after the first."""
@@ -23,7 +23,7 @@ CLOSE = 0.25
 
 
 def nearest(
-    problem: Problem,
+    problem: IKProblem,
     targets: Array,
     indices: Array,
     q0: Array,

@@ -12,7 +12,7 @@ from ....checks import choice
 from ....engine.kernels import ik_codes as codes
 from ....errors import InputError
 from ....groups.arrays import Array
-from ..ik_problem import Problem
+from ..ik_problem import IKProblem
 
 Objective = Literal["middle", "nearest", "manipulability"]
 STEPS = 25
@@ -30,7 +30,7 @@ def check_objective(objective: Any, q0: Any) -> None:
 
 
 def optimise(
-    problem: Problem,
+    problem: IKProblem,
     targets: Array,
     q: Array,
     q0: Array,
@@ -68,7 +68,7 @@ class Aim(NamedTuple):
     (N, m), or without a goal the manipulability.
     """
 
-    problem: Problem
+    problem: IKProblem
     goal: Array | None = None
     weights: Array | float = 1.0
 
@@ -114,7 +114,7 @@ class Aim(NamedTuple):
         return z / np.maximum(size, 1.0)
 
 
-def make_aim(problem: Problem, q0: Array, objective: Objective) -> Aim:
+def make_aim(problem: IKProblem, q0: Array, objective: Objective) -> Aim:
     """Aim of an objective; a coordinate without both limits has no middle."""
     if objective == "manipulability":
         return Aim(problem)
@@ -128,7 +128,7 @@ def make_aim(problem: Problem, q0: Array, objective: Objective) -> Aim:
     return Aim(problem, goal, limited.astype(float))
 
 
-def _jacobian(problem: Problem, q: Array) -> Array:
+def _jacobian(problem: IKProblem, q: Array) -> Array:
     """Jacobian of what the task constrains; a locked coordinate moves nothing."""
     task = problem.task
     T, J = problem.fast.fk_jacobian(q, "hybrid")

@@ -14,7 +14,7 @@ from poekin.solve.calibration import Distances, Points, calibrate
 from poekin.solve.calibration.fit import refit
 from poekin.solve.calibration.fit.fitting import Fit
 from poekin.solve.calibration.fit.losses import OUTLIER, chi_square
-from poekin.solve.calibration.fit.minimise import FitOptions, Outcome, Step
+from poekin.solve.calibration.fit.minimise import FitOptions, Minimum, Step
 from poekin.solve.calibration.fit.noise import Noise
 from poekin.solve.calibration.measurements.simulated import simulated
 
@@ -131,7 +131,7 @@ def test_what_is_seen_at_the_end_is_fitted_too_where_it_fits_better_by_more_than
     few, many = np.zeros((7, 3)), np.zeros((7, case["more"]))
     first = Fit(np.ones(7), np.eye(7), case["converged"], STEPS[:2], Noise([], []), few)
     second = Fit(np.full(7, 3.0), np.eye(7), case["settles"], STEPS[3:6], Noise([], []), many)
-    tried, asked = Outcome(np.full(7, 2.0), True, STEPS[2:3], np.eye(7)), []
+    tried, asked = Minimum(np.full(7, 2.0), True, STEPS[2:3], np.eye(7)), []
     gain = case["times"] * chi_square(2, OUTLIER)
 
     def fit_parameters(problem, free, p, options):

@@ -11,7 +11,12 @@ from poekin.solve import svg
 from poekin.solve.calibration.fit.minimise import Step
 from poekin.solve.calibration.model.residuals import Residuals
 from poekin.solve.calibration.report import plots
-from poekin.solve.calibration.report.changes import TWO_SIGMA, Change, Joint, NamedResiduals
+from poekin.solve.calibration.report.changes import (
+    TWO_SIGMA,
+    AxisChange,
+    MovableJoint,
+    NamedResiduals,
+)
 
 matplotlib = pytest.importorskip("matplotlib")
 
@@ -107,13 +112,13 @@ def test_many_measurements_are_thinned_out_evenly():
 
 def change(*values):
     k = len(values)
-    return Change(np.array(values), np.diag([1e-8, 4e-8][:k]).reshape(k, k))
+    return AxisChange(np.array(values), np.diag([1e-8, 4e-8][:k]).reshape(k, k))
 
 
 def test_the_changes_of_each_joint_stand_in_its_row_with_their_intervals(drawn):
     found = [
-        Joint("one", change(1e-3, -2e-3), change(3e-3, 4e-3)),
-        Joint("$two$", change(5e-3, 6e-3), change()),
+        MovableJoint("one", change(1e-3, -2e-3), change(3e-3, 4e-3)),
+        MovableJoint("$two$", change(5e-3, 6e-3), change()),
     ]
     plots.joints(found)
     (figure,) = drawn
