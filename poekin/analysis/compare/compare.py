@@ -133,12 +133,18 @@ def compare(
         whole(samples, "samples", 1),
         whole(seed, "seed", 0),
     )
+    rescaled = _in_one_unit(a, b, asked)
+    if rescaled is not None and rescaled.simple:
+        # No comparison in two units, in which nothing agrees and which takes long, says more.
+        return replace(rescaled.result, before=_before(matched(a, b, asked)))
     found = _compared(a, b, asked)
     if found.simple:
         return found.result
-    in_one_unit = _in_one_unit(a, b, asked, found)
-    if in_one_unit is not None:
-        return in_one_unit
+    if rescaled is not None:
+        # Other arms of unlike size agree in an axis or two by chance.
+        most = min(found.moved - 1, len(rescaled.result.joints) / 3)
+        if rescaled.moved <= most:
+            return replace(rescaled.result, before=found.result.before)
     axis = None
     if len(a.screws) == len(b.screws):
         one = uncoupled_at_zero(a)
@@ -176,22 +182,17 @@ def _in_one_unit(
     a: Chain,
     b: Chain,
     asked: Asked,
-    found: _Compared,
-) -> Comparison | None:
-    """The comparison with both models in one unit of length; None where it explains nothing."""
+) -> _Compared | None:
+    """The comparison with both models in one unit of length; None where they seem to be in one."""
     ratio = length_ratio(a, b)
-    if ratio == 1 or not found.moved:
+    if ratio == 1:
         return None
     said = _Mistake("millimetres", unit_words(ratio), ratio)
     one, other = to_one_unit(a, b, ratio)
     trial = _compared(one, other, asked, said)
-    result = trial.result
-    # Other arms of unlike size agree in an axis or two by chance.
-    few = trial.moved < found.moved and 3 * trial.moved <= len(result.joints)
-    near = result.after is not None and result.after.worst_position <= SMALL * one.reach
-    if few or near:
-        return replace(result, before=found.result.before)
-    return None
+    after = trial.result.after
+    near = after is not None and after.worst_position <= SMALL * one.reach
+    return trial._replace(simple=near or not trial.moved)
 
 
 def _unmatched(n_a: int, n_b: int, asked: Asked) -> _Compared:
@@ -237,7 +238,7 @@ def _compared(
         same_arm=judgement.same_arm,
         joints=joints,
         base=reading.base,
-        before=_pose_errors(poses, pair.b.fk(pair.y)),
+        before=_before(pair),
         alternatives=tuple(equivalents(pair.a, pair.b, reading, found.others, asked.tol)),
         unmatched_joints=pair.extra,
         aligned_to=found.aligned_to,
@@ -281,6 +282,13 @@ def _degrees(pair: Matched, reading: Hypothesis) -> _Mistake:
     if zeros_in_degrees(reading, revolute):
         return _Mistake("degrees", ZERO_DEGREES)
     return RIGHT
+
+
+def _before(pair: Matched | None) -> PoseErrors | None:
+    """Pose errors at the same coordinates, as the models stand."""
+    if pair is None:
+        return None
+    return _pose_errors(pair.a.fk(pair.x), pair.b.fk(pair.y))
 
 
 def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:

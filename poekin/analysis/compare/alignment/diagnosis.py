@@ -91,9 +91,7 @@ def _diagnose(
             best = reading
             errors = tried
             aligned_to = "all axes"
-    linked = with_link(case.pair, best)
-    if linked is not None:
-        best = linked
+    (best,) = with_link(case.pair, [best]) or [best]
     return Diagnosis(best, [], aligned_to)
 
 

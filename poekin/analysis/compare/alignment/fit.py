@@ -10,7 +10,7 @@ import numpy as np
 
 from ....groups import se3
 from ....groups.arrays import Array
-from ...axis_lines import Marks
+from ...axis_lines import Marks, applied
 from .alignments import Alignments, Rows
 from .lines import Sides
 
@@ -19,7 +19,9 @@ STEPS = 60
 
 @dataclass(frozen=True, eq=False)
 class Linearised(Rows):
-    """Alignments, their residuals r (m, 6 n) and Jacobians J (m, 6 n, 6 + n), and costs r · r (m)."""
+    """Alignments, their residuals r (m, 6 n) and Jacobians J (m, 6 n, 6 + n), or (m, 6 n, 6) where no
+    zero offset is free, and costs r · r (m).
+    """
 
     at: Alignments
     r: Array
@@ -31,18 +33,20 @@ def fit(
     pair: Sides,
     starts: Alignments,
     free: Marks | bool,
-    used: Marks | bool,
+    used: Marks | Array | bool,
 ) -> Alignments:
     """The alignments that bring b's axes nearest to a's, from m starts.
 
-    Least squares of direction and place, each in tolerances, over the axes in `used` (n) or (m, n,
-    bool); zero offsets move where `free` (n) or (m, n, bool) says so: True is all, False none. What the axes leave free
-    stays where it starts. All starts are stepped at once, each with a damping of its own and until
-    it is done.
+    Least squares of direction and place, each in tolerances, over the axes in `used` (n) or (m, n),
+    which may be their shares; zero offsets move where `free` (n) or (m, n, bool) says so: True is
+    all, False none. What the axes leave free stays where it starts. All starts are stepped at once,
+    each with a damping of its own and until it is done.
     """
     shape = starts.z.shape
     free = np.broadcast_to(free, shape)
-    used = np.broadcast_to(used & pair.alike, shape)
+    if not free.any():
+        free = free[:, :0]
+    used = np.broadcast_to(used * pair.alike, shape)
     everywhere = np.arange(len(starts))
     best = _linearised(pair, starts[everywhere], free, used)
     damping = np.full(len(starts), 1e-6)
@@ -54,13 +58,16 @@ def fit(
         here = best[live]
         held = damping[live]
         steps = _step(here.r, here.J, held)
+        slope = -(here.r * applied(here.J, steps)).sum(1)
         tried = here.at.moved(steps)
         trial = _linearised(pair, tried, free[live], used[live])
-        gain = here.cost - trial.cost
+        least = 1e-12 * here.cost
         better = trial.cost < here.cost
-        gains = gain >= 1e-12 * here.cost
+        gains = here.cost - trial.cost >= least
         worth_while = gains & (trial.cost >= 1e-16)
-        going[live] = np.where(better, worth_while, held <= 1e3)
+        # Where a step promises nothing, neither does a shorter one.
+        promising = (slope >= least) & (held <= 1e3)
+        going[live] = np.where(better, worth_while, promising)
         eased = np.maximum(held / 10, 1e-14)
         damping[live] = np.where(better, eased, held * 10)
         best[live[better]] = trial[better]
@@ -92,18 +99,35 @@ def _linearised(
     pair: Sides,
     at: Alignments,
     free: Marks,
-    used: Marks,
+    used: Array,
 ) -> Linearised:
     """Residuals at alignments, and their derivatives by the base's pose and by the zero offsets.
 
-    Those of axes that are not used and by zero offsets that are not free are 0.
+    Those of axes that are not used and by zero offsets that are not free are 0; none are
+    made by zero offsets where `free` is (m, 0).
     """
     b = pair.transformed(at)
-    screws = b.screws
-    k = pair.suspect_joint
     # d Ad(e^xi) S = ad(xi) S = -ad(S) xi
-    weights = b.signs[..., None, None] * pair.weights
-    base = weights @ -se3.ad(b.axes)
+    weights = (b.signs * used)[..., None, None] * pair.weights
+    J = weights @ -se3.ad(b.axes)
+    if free.shape[1]:
+        J = _beside_zeros(pair, at, b.screws, J, free)
+    shape = len(at), 6 * pair.n
+    residuals = b.residuals * used[..., None]
+    r = residuals.reshape(shape)
+    cost = (r * r).sum(1)
+    return Linearised(at, r, J.reshape(*shape, J.shape[-1]), cost)
+
+
+def _beside_zeros(
+    pair: Sides,
+    at: Alignments,
+    screws: Array,
+    base: Array,
+    free: Marks,
+) -> Array:
+    """Derivatives by the base's pose (m, n, 6, 6), and by zero offsets beside them."""
+    k = pair.suspect_joint
     if k >= 0:
         screws[:, k] = pair.suspect_screw(screws[:, k])
     # A zero offset turns what is behind it as a turn of the base about the joint's axis would.
@@ -116,11 +140,4 @@ def _linearised(
         in_front = screws[:, :k].swapaxes(1, 2)
         columns[:, behind, :, :k] = base[:, behind] @ in_front[:, None]
     moved = free[:, None] & np.tri(pair.n, k=-1, dtype=bool)
-    columns *= moved[:, :, None]
-    J = np.concatenate([base, columns], axis=3)
-    J *= used[..., None, None]
-    shape = len(at), 6 * pair.n
-    residuals = b.residuals * used[..., None]
-    r = residuals.reshape(shape)
-    cost = (r * r).sum(1)
-    return Linearised(at, r, J.reshape(*shape, J.shape[-1]), cost)
+    return np.concatenate([base, columns * moved[:, :, None]], axis=3)

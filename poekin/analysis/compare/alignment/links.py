@@ -6,33 +6,34 @@ from dataclasses import replace
 
 import numpy as np
 
-from ....groups.arrays import Array
 from .alignments import Alignments
 from .fit import fit
 from .hypotheses import Hypothesis, make_hypotheses, still, tool_behind
 from .lines import Sides
 
 
-def with_link(pair: Sides, reading: Hypothesis) -> Hypothesis | None:
-    """The reading with its last moved axes explained by one link, or None.
+def with_link(pair: Sides, readings: list[Hypothesis]) -> list[Hypothesis]:
+    """Readings with their last moved axes explained by one link; those of which that can be.
 
     There have to be two axes or more that moved by one motion, and the tool with them: that is what
     a link of another length or twist does to all that is behind it.
     """
-    still_there = np.flatnonzero(~reading.moved)
-    first = int(still_there.max(initial=-1)) + 1
+    joints = np.arange(pair.n)
+    moved = np.array([reading.moved for reading in readings]).reshape(-1, pair.n)
     # Where nothing is in front, it is the base that moved.
-    front = max(first, 1)
-    at = Alignments(_on_centre(pair, reading.base)[None], reading.zeros[None])
-    for k in range(front, pair.n - 1):
-        behind = np.arange(pair.n) >= k
-        fitted = fit(pair, at, False, behind)
-        agree = pair.deviations(fitted)[0][behind] <= 1.0
-        tool = tool_behind(pair, pair.carriers(fitted)[:, -1])[0]
-        if agree.all() and still(tool, pair.tol):
-            frames = int(not still(reading.base, pair.tol))
-            return replace(reading, tool=tool, frames=frames, link=k)
-    return None
+    last_still = np.where(moved, 0, joints).max(1, initial=0)
+    which, ks = np.nonzero((joints > last_still[:, None]) & (joints < pair.n - 1))
+    behind = joints >= ks[:, None]
+    fitted = fit(pair, _alignments(pair, readings)[which], False, behind)
+    tools = tool_behind(pair, pair.carriers(fitted)[:, -1])
+    apart = behind & (pair.deviations(fitted) > 1.0)
+    fits = still(tools, pair.tol) & ~apart.any(1)
+    found: dict[int, Hypothesis] = {}
+    for i, k, tool in zip(which[fits], ks[fits], tools[fits], strict=True):
+        reading = readings[i]
+        frames = int(not still(reading.base, pair.tol))
+        found.setdefault(i, replace(reading, tool=tool, frames=frames, link=int(k)))
+    return list(found.values())
 
 
 def with_front_link(pair: Sides, reading: Hypothesis) -> Hypothesis | None:
@@ -45,7 +46,7 @@ def with_front_link(pair: Sides, reading: Hypothesis) -> Hypothesis | None:
     k = int(agree.min(initial=pair.n))
     if reading.link or not 2 <= k < pair.n:
         return None
-    at = Alignments(_on_centre(pair, reading.base)[None], reading.zeros[None])
+    at = _alignments(pair, [reading])
     front = np.arange(pair.n) < k
     fitted = fit(pair, at, False, front)
     (found,) = make_hypotheses(pair, fitted)
@@ -69,9 +70,10 @@ def with_front_link(pair: Sides, reading: Hypothesis) -> Hypothesis | None:
     )
 
 
-def _on_centre(pair: Sides, base: Array) -> Array:
-    """The pose between the arms' centres, of that between their bases."""
-    T = base.copy()
-    turned = base[:3, :3] @ pair.b.centre
-    T[:3, 3] += turned - pair.a.centre
-    return T
+def _alignments(pair: Sides, readings: list[Hypothesis]) -> Alignments:
+    """The alignments, about the arms' centres, that readings stand for."""
+    P = np.array([reading.base for reading in readings]).reshape(-1, 4, 4)
+    turned = P[:, :3, :3] @ pair.b.centre
+    P[:, :3, 3] += turned - pair.a.centre
+    z = np.array([reading.zeros for reading in readings]).reshape(-1, pair.n)
+    return Alignments(P, z)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
+from ....groups.arrays import Array
 from .alignment_seeds import best, rigid_poses
 from .alignments import Alignments
 from .fit import fit
@@ -26,39 +25,29 @@ def robust_alignments(pair: Sides) -> Alignments:
     count most (graduated non-convexity, Blake and Zisserman 1987).
     """
     starts = best(pair, rigid_poses(pair).at, STARTS)
-    found = pair.as_they_stand.joined(starts)
-    wide = [_reweighted(pair, found[[k]]) for k in range(len(found))]
-    sharp = [_sharpened(pair, at) for at in wide]
-    one = best(pair, wide[0].joined(*wide[1:]), 1)
-    other = best(pair, sharp[0].joined(*sharp[1:]), 1)
-    return one.joined(other)
-
-
-def _reweighted(pair: Sides, at: Alignments) -> Alignments:
+    wide = pair.as_they_stand.joined(starts)
+    if not pair.alike.any():
+        return wide[:1].tiled(2)
     for _ in range(REWEIGHTINGS):
-        at = _step(pair, at, _median(pair, at))
-    return at
+        wide = _step(pair, wide, _medians(pair, wide))
+    scales = _medians(pair, wide)
+    sharp = wide
+    while (scales > 1.0).any():
+        scales = np.maximum(SHARPER * scales, 1.0)
+        sharp = _step(pair, sharp, scales)
+    agree = pair.deviations(sharp) <= 1.0
+    sharp = fit(pair, sharp, False, agree)
+    return best(pair, wide, 1).joined(best(pair, sharp, 1))
 
 
-def _sharpened(pair: Sides, at: Alignments) -> Alignments:
-    scale = _median(pair, at)
-    while scale > 1.0:
-        scale = max(SHARPER * scale, 1.0)
-        at = _step(pair, at, scale)
-    agree = pair.deviations(at) <= 1.0
-    return fit(pair, at, False, agree)
+def _medians(pair: Sides, at: Alignments) -> Array:
+    """The median deviation (m) under each alignment, or a tolerance where it is less."""
+    alike = pair.deviations(at)[:, pair.alike]
+    return np.maximum(np.median(alike, axis=1), 1.0)
 
 
-def _median(pair: Sides, at: Alignments) -> float:
-    alike = pair.deviations(at)[0, pair.alike]
-    if not len(alike):
-        return 1.0
-    return max(float(np.median(alike)), 1.0)
-
-
-def _step(pair: Sides, at: Alignments, scale: float) -> Alignments:
-    """The least-squares alignment of axes weighed by their deviations."""
-    (miss,) = pair.deviations(at)
-    share = 1.0 / np.hypot(1.0, np.where(pair.alike, miss, 0.0) / scale)
-    weighed = replace(pair, weights=share[:, None, None] * pair.weights)
-    return fit(weighed, at, False, True)
+def _step(pair: Sides, at: Alignments, scales: Array) -> Alignments:
+    """The least-squares alignments of axes weighed by their deviations, on scales (m)."""
+    miss = np.where(pair.alike, pair.deviations(at), 0.0)
+    shares = 1.0 / np.hypot(1.0, miss / scales[:, None])
+    return fit(pair, at, False, shares)

@@ -185,8 +185,8 @@ def _other_links(pair: Sides, found: list[Hypothesis]) -> list[Hypothesis]:
     several = [r for r in found if r.moved.sum() > 1 and not r.link]
     several.sort(key=_cost)
     few = several[:MOST_LINKED]
-    linked = [link(pair, reading) for link in (with_link, with_front_link) for reading in few]
-    return [reading for reading in linked if reading is not None]
+    in_front = (with_front_link(pair, reading) for reading in few)
+    return with_link(pair, few) + [reading for reading in in_front if reading is not None]
 
 
 def _conventions(pair: Sides) -> list[Hypothesis]:
@@ -204,17 +204,21 @@ def _conventions(pair: Sides) -> list[Hypothesis]:
     suspects = ~pair.alike
     if pair.alike.all():
         suspects = pair.alike
+    used = ~np.eye(pair.n, dtype=bool)[suspects]
+    found += _fitting(pair, tried.tiled(len(used)), used.repeat(len(tried), 0))
     for k in np.flatnonzero(suspects):
-        used = np.arange(pair.n) != k
-        suspecting = replace(pair, suspect_joint=int(k))
-        for held in (pair, suspecting):
-            trial = fit(held, tried, _inner(pair), used)
-            miss = held.deviations(trial)[:, used]
-            fits = ~(miss > 1.0).any(1)
-            readings = _simplest(held, trial[fits])
-            # Zero offsets about a's axis k say nothing of b's, unless that is another one.
-            found += [r for r in readings if held.suspect_joint < 0 or r.moved[k]]
+        held = replace(pair, suspect_joint=int(k))
+        readings = _fitting(held, tried, np.arange(pair.n) != k)
+        # Zero offsets about a's axis k say nothing of b's, unless that is another one.
+        found += [r for r in readings if r.moved[k]]
     return found
+
+
+def _fitting(pair: Sides, starts: Alignments, used: Marks) -> list[Hypothesis]:
+    """Readings of starts fitted with their zero offsets free, of which the axes in `used` then agree."""
+    trial = fit(pair, starts, _inner(pair), used)
+    lost = used & (pair.deviations(trial) > 1.0)
+    return _simplest(pair, trial[~lost.any(1)])
 
 
 def _inner(pair: Sides) -> Marks:

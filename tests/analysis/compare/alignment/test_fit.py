@@ -114,11 +114,11 @@ def test_a_fit_that_starts_near_takes_few_steps_and_ends_where_none_helps(monkey
     fitted, _ = counted(monkeypatch, 4, pair, start, free, used)
     assert pair.deviations(fitted)[:, used].max() < 1e-8
     # With the axis that differs too, the least squares are none that vanish: from there no step
-    # helps, and until the damping has grown from 1e-6 beyond 1e3 ten are tried.
+    # promises a gain, so that no shorter ones are tried.
     least, _ = counted(monkeypatch, 60, pair, start, free, used | True)
     again, taken = counted(monkeypatch, 60, pair, least, free, used | True)
     assert pytest.approx(least.P, abs=1e-9) == again.P
-    assert 1 <= taken <= 14
+    assert 1 <= taken <= 3
     assert counted(monkeypatch, 60, pair, there, free, used)[1] <= 1
     # A tenth of a tolerance is still too much, and nothing at all is not.
     chain = random_arm(50, KINDS)

@@ -36,8 +36,8 @@ def as_it_stands(chain, other):
 def test_the_last_axes_and_the_tool_that_moved_together_are_behind_one_link(k):
     chain = arm("panda")
     other = planted(longer(chain, k), "tilt", 1, np.random.default_rng(0))
-    reading = with_link(*as_it_stands(chain, other))
-    assert reading is not None
+    pair, reading = as_it_stands(chain, other)
+    (reading,) = with_link(pair, [reading])
     assert (reading.link, reading.frames) == (k, 0)
     assert reading.tool == pytest.approx(np.eye(4), abs=1e-9)
     assert np.flatnonzero(reading.beside_link).tolist() == [1]
@@ -46,11 +46,20 @@ def test_the_last_axes_and_the_tool_that_moved_together_are_behind_one_link(k):
 def test_axes_that_moved_without_the_tool_or_apart_are_behind_no_link():
     chain = arm("panda")
     other = longer(chain, 5)
-    assert with_link(*as_it_stands(chain, other.replace(home=chain.home))) is None
     apart = planted(other, "shift", 6, np.random.default_rng(0))
-    assert with_link(*as_it_stands(chain, apart)) is None
     # One axis and the tool are one axis, and a tool.
-    assert with_link(*as_it_stands(chain, longer(chain, 6))) is None
+    for wrong in (other.replace(home=chain.home), apart, longer(chain, 6)):
+        pair, reading = as_it_stands(chain, wrong)
+        assert with_link(pair, [reading]) == []
+
+
+def test_of_readings_looked_at_together_each_has_its_own_link_or_none():
+    chain = arm("panda")
+    pair, here = as_it_stands(chain, longer(chain, 4))
+    wrong = replace(here, moved=np.zeros(7, bool))
+    first, second = with_link(pair, [here, wrong, here])
+    assert (first.link, second.link) == (4, 4)
+    assert with_link(pair, []) == []
 
 
 def behind(chain, k, other):
