@@ -11,6 +11,8 @@ from ..amounts import Unit, amount, joint_unit
 from .alignment.diagnosis import AlignedTo
 
 Outcome = Literal["same", "conventions", "differ"]
+NOISE = 1e-11
+"""Lengths (m) and angles (rad) below it are the rounding of poses, and no differences."""
 
 
 @dataclass(frozen=True)
@@ -92,10 +94,10 @@ class JointComparison(Result):
         text : str
             Line such as "joint 4 (elbow): axes 0.1°, 3.2 mm apart at the arm, zero offset 0°".
         """
-        found = [f"axes {amount(self.angle, 'rad')}"]
+        found = [f"axes {_seen(self.angle, 'rad')}"]
         if self.shift is not None:
-            found.append(f"{amount(self.shift, 'm')} apart at the arm")
-        found.append(f"zero offset {amount(self.zero_offset, self.unit)}")
+            found.append(f"{_seen(self.shift, 'm')} apart at the arm")
+        found.append(f"zero offset {_seen(self.zero_offset, self.unit)}")
         if self.reversed:
             found.append("sign of q flipped")
         return f"joint {self.number} ({self.name_a}): {', '.join(found)}"
@@ -120,8 +122,8 @@ class PoseErrors(Result):
 
     def summary(self) -> str:
         """Text with the worst and the mean difference, in mm and degrees."""
-        worst = f"{amount(self.worst_position, 'm', 3)}, {amount(self.worst_rotation, 'rad', 3)}"
-        mean = f"{amount(self.mean_position, 'm', 3)}, {amount(self.mean_rotation, 'rad', 3)}"
+        worst = f"{_seen(self.worst_position, 'm', 3)}, {_seen(self.worst_rotation, 'rad', 3)}"
+        mean = f"{_seen(self.mean_position, 'm', 3)}, {_seen(self.mean_rotation, 'rad', 3)}"
         return f"worst {worst}; mean {mean}"
 
 
@@ -226,6 +228,11 @@ class Comparison(Result):
         outcome, *_ = self.verdict.partition("; ")
         lines.append(_capital(outcome))
         return "\n".join(lines)
+
+
+def _seen(value: float, unit: Unit, digits: int = 4) -> str:
+    """A length or an angle for reading, 0 where it is rounding alone."""
+    return amount(value * (abs(value) >= NOISE), unit, digits)
 
 
 def _capital(text: str) -> str:

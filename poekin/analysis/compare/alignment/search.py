@@ -82,9 +82,9 @@ def search(
         found += _other_links(pair, found)
     # The reading of the models as they stand holds, and so there is one that does.
     found.sort(key=_cost)
-    holding = (r for r in found if r.moved.any() or poses_agree(pair, a, b, r))
-    first = next(holding)
-    return _simpler(first, found), _others(first, holding)
+    found = [r for r in found if r.moved.any() or poses_agree(pair, a, b, r)]
+    first = found[0]
+    return _simpler(first, found), _others(first, found)
 
 
 def agreeing(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis | None:
@@ -146,15 +146,20 @@ def _start(at: Alignments, free: Marks, used: Marks | bool) -> _Start:
 
 
 def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
-    """The best reading, or one that blames fewer joints and leaves base and tool where they are,
-    which it does not.
+    """The best reading, or one that leaves base and tool where they are, which it does not, and
+    blames fewer joints or, all axes agreeing, changes fewer conventions, frames among them.
     """
     if not first.frames or first.link:
         return first
-    in_place = (r for r in found if not r.frames and r.moved.any())
+    in_place = (r for r in found if not r.frames)
     most = first.implicated.sum()
-    fewer = (r for r in in_place if r.implicated.sum() < most)
-    return next(fewer, first)
+    conventions = first.changes.sum() + first.frames
+    for r in in_place:
+        if r.moved.any() and r.implicated.sum() < most:
+            return r
+        if not r.moved.any() and r.changes.sum() < conventions:
+            return r
+    return first
 
 
 def _links(pair: Sides, rigid: Alignments) -> list[Hypothesis]:
@@ -261,15 +266,15 @@ def _simplest(pair: Sides, at: Alignments) -> list[Hypothesis]:
     return make_hypotheses(pair, kept.at)
 
 
-def _others(first: Hypothesis, behind: Iterable[Hypothesis]) -> list[Hypothesis]:
-    """The readings behind the first that are as short and blame another joint, or it for something
+def _others(first: Hypothesis, found: Iterable[Hypothesis]) -> list[Hypothesis]:
+    """The readings beside the first that are as short and blame another joint, or it for something
     else; each once.
     """
     kept: list[Hypothesis] = []
     if first.implicated.sum() != 1:
         return kept
     seen = {first.changes.tobytes()}
-    for reading in behind:
+    for reading in found:
         signature = reading.changes.tobytes()
         if reading.changes.sum() == 1 and signature not in seen:
             seen.add(signature)

@@ -13,7 +13,9 @@ from ..unmatched_joints import droppable, without
 from .conventions import Asked
 
 LEAST = 60
-"""Configurations within the limits of either model at which alignments are weighed."""
+"""Configurations within the limits of either model at which alignments are weighed, or as many as
+pose errors are told of, where an alignment is not to be the worse one.
+"""
 
 
 class Matched(NamedTuple):
@@ -38,13 +40,15 @@ def matched(a: Chain, b: Chain, asked: Asked) -> Matched | None:
     """
     one = uncoupled_at_zero(a)
     other = uncoupled_at_zero(b)
-    q = a.random(asked.seed, asked.samples)
-    x = q @ a.coupling.T
+    count = max(LEAST, asked.samples)
+    q = a.random(asked.seed, count)
+    ours = q @ a.coupling.T
+    theirs = b.random(asked.seed, count) @ b.coupling.T
+    x = ours[: asked.samples]
     y = x
     if a.coupling.shape == b.coupling.shape:
-        y = q @ b.coupling.T
-    both = _values(a, asked.seed, LEAST), _values(b, asked.seed, LEAST)
-    pair = Matched(one, other, a.coupling, b.coupling, x, y, both)
+        y = q[: asked.samples] @ b.coupling.T
+    pair = Matched(one, other, a.coupling, b.coupling, x, y, (ours, theirs))
     if len(one.screws) == len(other.screws):
         return pair
     found = droppable(one, other, asked.tol)
@@ -55,7 +59,7 @@ def matched(a: Chain, b: Chain, asked: Asked) -> Matched | None:
         return pair._replace(
             b=without(other, ks, held),
             C_b=np.delete(b.coupling, ks, axis=0),
-            both=(both[0], np.delete(both[1], ks, axis=1)),
+            both=(ours, np.delete(theirs, ks, axis=1)),
             extra=("b", *_names(other, ks)),
         )
     return pair._replace(
@@ -63,14 +67,9 @@ def matched(a: Chain, b: Chain, asked: Asked) -> Matched | None:
         C_a=np.delete(a.coupling, ks, axis=0),
         x=np.delete(x, ks, axis=1),
         y=np.delete(y, ks, axis=1),
-        both=(np.delete(both[0], ks, axis=1), both[1]),
+        both=(np.delete(ours, ks, axis=1), theirs),
         extra=("a", *_names(one, ks)),
     )
-
-
-def _values(chain: Chain, seed: int, count: int) -> Array:
-    """Random values (count, n) of the joints within their limits."""
-    return chain.random(seed, count) @ chain.coupling.T
 
 
 def _names(
