@@ -25,7 +25,7 @@ from .length_unit import length_ratio, to_one_unit
 from .messages import ZERO_DEGREES, count_words, degree_words, equivalents, mirror_words, unit_words
 from .mistakes.mirror import mirror_of, mirrored
 from .mistakes.rpy_degrees import in_degrees, zeros_in_degrees
-from .reached import pose_differences
+from .reached import ONE_ARM, pose_differences
 from .unmatched_joints import MOST
 
 __all__ = ["compare"]
@@ -174,8 +174,6 @@ class _Compared(NamedTuple):
 
 
 RIGHT = _Mistake()
-SMALL = 0.02
-"""Pose errors up to this share of the reach are those of one arm, not of two."""
 
 
 def _in_one_unit(
@@ -191,7 +189,7 @@ def _in_one_unit(
     one, other = to_one_unit(a, b, ratio)
     trial = _compared(one, other, asked, said)
     after = trial.result.after
-    near = after is not None and after.worst_position <= SMALL * one.reach
+    near = after is not None and after.worst_position <= ONE_ARM * one.reach
     return trial._replace(simple=near or not trial.moved)
 
 

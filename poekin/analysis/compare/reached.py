@@ -15,6 +15,8 @@ from .alignment.hypotheses import Hypothesis
 from .alignment.lines import Sides
 
 SAMPLES = 8
+ONE_ARM = 0.02
+"""Pose errors up to this share of the reach, or of half a turn, are those of one arm, not of two."""
 
 
 def poses_agree(

@@ -14,6 +14,8 @@ from ....groups.arrays import Array
 from ....model.chain import Chain
 from ...axis_lines import Tolerances
 from ..reached import pose_differences
+from .alignments import Alignments
+from .fit import fit
 from .hypotheses import Hypothesis, frames_moved, make_hypotheses
 from .lines import Sides, sides
 from .links import with_link
@@ -25,6 +27,10 @@ AlignedTo = Literal["agreeing axes", "all axes", "nothing"]
 HALF = 0.5
 """Share of the axes that have to agree, and of the pose errors that an alignment to all axes may
 leave: one that explains less is no alignment.
+"""
+QUARTER = 0.25
+"""Share of the pose errors that another zero of one joint may leave where all axes differ: one degree
+or more beside a calibration.
 """
 
 
@@ -78,19 +84,23 @@ def _diagnose(
     case = _Case(a, b, sides(a, b, tol), samples)
     if not first.moved.any() or _holds(case, first):
         return Diagnosis(first, others, "agreeing axes")
-    best, *readings = _of_all_axes(case)
+    stand, *readings = _of_all_axes(case)
+    best = stand
     errors = _errors(case, best)
-    aligned_to: AlignedTo = "nothing"
     for reading in readings:
         tried = _errors(case, reading)
         share = HALF
-        # Of two alignments of the same frames the better one, but none for nothing.
-        if aligned_to == "all axes" and reading.frames == best.frames:
+        if reading.offset.sum() > best.offset.sum():
+            share = QUARTER
+        # Of two that change as much the better one, but none for nothing.
+        elif best is not stand and reading.frames == best.frames:
             share = 1.0
         if (tried <= share * errors).all():
             best = reading
             errors = tried
-            aligned_to = "all axes"
+    aligned_to: AlignedTo = "nothing"
+    if best.frames:
+        aligned_to = "all axes"
     (best,) = with_link(case.pair, [best]) or [best]
     return Diagnosis(best, [], aligned_to)
 
@@ -110,10 +120,17 @@ def _holds(case: _Case, reading: Hypothesis) -> bool:
 
 
 def _of_all_axes(case: _Case) -> list[Hypothesis]:
-    """Readings that move no frame, the base, the tool, and both."""
+    """Readings that move no frame, the base, the tool, and both; each as zeros are, then with another
+    zero of one joint.
+    """
     pair = case.pair
-    stand = make_hypotheses(pair, pair.as_they_stand)
-    aligned = stand + make_hypotheses(pair, robust_alignments(pair))
+    stand = pair.as_they_stand
+    robust = stand.joined(robust_alignments(pair))
+    alone = np.eye(pair.n, dtype=bool)[1:-1]
+    free = alone.repeat(len(robust), 0)
+    turned = fit(pair, robust.tiled(len(alone)), free, True)
+    here = Alignments(stand.P.repeat(len(turned), 0), turned.z)
+    aligned = make_hypotheses(pair, robust.joined(here, turned))
     found = [replace(reading, tool=np.eye(4)) for reading in aligned]
     found += [replace(reading, tool=_tool(case, reading)) for reading in aligned]
     return [replace(r, frames=int(frames_moved(pair, r.base, r.tool))) for r in found]

@@ -10,6 +10,7 @@ from ....model.chain import Chain
 from ...axis_lines import Tolerances
 from ..alignment.hypotheses import Hypothesis, as_they_stand
 from ..alignment.search import agreeing
+from ..reached import ONE_ARM, SAMPLES, pose_differences
 
 Axis = Literal["x", "y", "z"]
 AXES: tuple[Axis, ...] = ("x", "y", "z")
@@ -41,20 +42,30 @@ def mirror_of(
     moved: bool,
 ) -> Axis | None:
     """The coordinate of the base whose other sign makes b a, as it stands or, where `moved` is
-    wanted, with base and tool elsewhere; None where there is none.
+    wanted, as a calibrated arm or with base and tool elsewhere; None where there is none.
     """
-    for axis in AXES:
-        if _agree(as_they_stand(a, mirrored(b, axis), tol)):
+    mirrors = {axis: mirrored(b, axis) for axis in AXES}
+    stand = {axis: as_they_stand(a, mirror, tol) for axis, mirror in mirrors.items()}
+    # All directions at once, as a file keeps the signs of its axes or turns them.
+    one_way = [axis for axis in AXES if abs(stand[axis].directions.sum()) == len(a.screws)]
+    for axis in one_way:
+        if not (stand[axis].moved.any() or stand[axis].frames):
             return axis
+    if not moved:
+        return None
+    if not _near(a, b, as_they_stand(a, b, tol)):
+        for axis in one_way:
+            if _near(a, mirrors[axis], stand[axis]):
+                return axis
     # Mirrors across other planes differ by a motion.
-    if moved:
-        reading = agreeing(a, mirrored(b, "x"), tol)
-        if reading is not None and not reading.offset.any():
-            return "x"
+    reading = agreeing(a, mirrors["x"], tol)
+    if reading is not None and not reading.offset.any():
+        return "x"
     return None
 
 
-def _agree(reading: Hypothesis) -> bool:
-    """Whether nothing differs but all directions at once."""
-    one_way = abs(reading.directions.sum()) == len(reading.directions)
-    return one_way and not (reading.moved.any() or reading.offset.any() or reading.frames)
+def _near(a: Chain, b: Chain, reading: Hypothesis) -> bool:
+    """Whether the poses under a reading differ as those of one arm do."""
+    x = a.random(0, SAMPLES)
+    moved, turned = pose_differences(a.fk(x), reading.poses(b, x))
+    return bool(moved.max() / a.reach + turned.max() / np.pi <= ONE_ARM)
