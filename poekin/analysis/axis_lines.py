@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..groups.arrays import Array
 from ..model.chain import Chain
-from ..model.readings.coupled import own_limits
+from ..model.readings.coupled import own_limits, sum_limits
 
 Marks = NDArray[np.bool_]
 
@@ -100,15 +100,18 @@ def applied(M: Array, x: Array) -> Array:
 
 
 def uncoupled_at_zero(chain: Chain) -> Chain:
-    """The chain with every joint its own coordinate x, x = 0 where q = 0, and the joints' own limits;
-    velocity limits are left out.
+    """The chain with every joint its own coordinate x, x = 0 where q = 0, and the joints' own limits, or
+    those that several coordinates leave it together; velocity limits are left out.
     """
     if chain.nontrivial_coupling is None and not chain.offset.any():
         return chain
+    limits = own_limits(chain)
+    unknown = np.isinf(limits).all(1) & (np.count_nonzero(chain.coupling, axis=1) > 1)
+    together = sum_limits(chain.coupling, chain.limits) + chain.offset[:, None]
     bare = chain.replace(
         coupling=None,
         q_names=None,
-        limits=own_limits(chain),
+        limits=np.where(unknown[:, None], together, limits),
         offset=None,
         velocity_limits=None,
         joint_limits=None,

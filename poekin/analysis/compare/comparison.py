@@ -232,7 +232,7 @@ class Comparison(Result):
 
 def _seen(value: float, unit: Unit, digits: int = 4) -> str:
     """A length or an angle for reading, 0 where it is rounding alone."""
-    return amount(value * (abs(value) >= NOISE), unit, digits)
+    return amount(value * (abs(value) >= NOISE) + 0.0, unit, digits)
 
 
 def _capital(text: str) -> str:

@@ -335,6 +335,28 @@ def _fanuc(ratio=1.0, half_range=1.0):
     return chain.replace(coupling=C, limits=limits)
 
 
+def test_the_limits_of_a_reading_with_a_name_of_its_own_count_in_the_joint_that_follows_it():
+    readings = [f"reading{k}" for k in range(6)]
+    pair = [_fanuc(half_range=half).replace(q_names=readings) for half in (1.0, 0.5)]
+    result = compare(*pair, samples=1)
+    assert (result.outcome, result.same_arm) == ("differ", True)
+    # x3 = r2 + r3, so that half a radian of r3 less is one of x3's.
+    assert result.joints[2].limits == pytest.approx((0.5, -0.5))
+    assert not any(joint.limits != (0.0, 0.0) for k, joint in enumerate(result.joints) if k != 2)
+
+
+def test_directions_that_are_all_reversed_are_told_as_that_with_the_base_where_it_is():
+    for name in ("ur5e", "panda"):
+        chain = arm(name)
+        turned = chain.replace(screws=-chain.screws)
+        for a, b in ((chain, turned), (turned, chain)):
+            result = compare(a, b, samples=5)
+            assert [joint.reversed for joint in result.joints] == [True] * chain.dof
+            assert not any(joint.zero_differs for joint in result.joints)
+            assert result.base == pytest.approx(np.eye(4), abs=1e-9)
+            assert result.tool == pytest.approx(np.eye(4), abs=1e-9)
+
+
 def test_the_limits_of_a_coupled_reading_count():
     here = _fanuc()
     result = compare(here, _fanuc(half_range=0.5), samples=1)

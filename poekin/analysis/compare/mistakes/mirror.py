@@ -46,14 +46,14 @@ def mirror_of(
     """
     mirrors = {axis: mirrored(b, axis) for axis in AXES}
     stand = {axis: as_they_stand(a, mirror, tol) for axis, mirror in mirrors.items()}
-    # All directions at once, as a file keeps the signs of its axes or turns them.
-    one_way = [axis for axis in AXES if abs(stand[axis].directions.sum()) == len(a.screws)]
+    one_way = [axis for axis in AXES if _one_way(stand[axis])]
     for axis in one_way:
         if not (stand[axis].moved.any() or stand[axis].frames):
             return axis
     if not moved:
         return None
-    if not _near(a, b, as_they_stand(a, b, tol)):
+    unmirrored = as_they_stand(a, b, tol)
+    if not (_one_way(unmirrored) and _near(a, b, unmirrored)):
         for axis in one_way:
             if _near(a, mirrors[axis], stand[axis]):
                 return axis
@@ -62,6 +62,11 @@ def mirror_of(
     if reading is not None and not reading.offset.any():
         return "x"
     return None
+
+
+def _one_way(reading: Hypothesis) -> bool:
+    """Whether all directions or none are reversed, as a file keeps the signs of its axes or turns them."""
+    return bool(abs(reading.directions.sum()) == len(reading.directions))
 
 
 def _near(a: Chain, b: Chain, reading: Hypothesis) -> bool:

@@ -54,6 +54,38 @@ def test_a_calibrated_arm_is_left_as_it_stands_and_its_right_joint_is_not_blamed
     assert result.base == pytest.approx(np.eye(4))
 
 
+@pytest.mark.parametrize("k", [1, 2, 3, 4])
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_wrong_zero_beside_a_calibration_is_named_and_not_the_axes_behind_it(k, swapped):
+    wrong = np.where(np.arange(6) == k, np.radians(5.0), 0.0)
+    calibrated = pk.dh.to_chain(CALIBRATED).rezeroed(wrong)
+    pair = [pk.dh.to_chain(NOMINAL), calibrated.replace(limits=[[-2 * np.pi, 2 * np.pi]] * 6)]
+    if swapped:
+        pair.reverse()
+    result = pk.compare(*pair)
+    assert [joint.number for joint in result.joints if joint.zero_differs] == [k + 1]
+    way = 1.0 if swapped else -1.0
+    # The calibration itself turns joints by a few hundredths of a degree.
+    zero = result.joints[k].zero_offset
+    assert zero == pytest.approx(way * np.radians(5.0), abs=np.radians(0.05))
+    # What is left is of the calibration's size: no axis is further off than without a wrong zero.
+    assert [joint.number for joint in result.differing] == [2, 3, 4, 5, 6]
+    assert max(joint.angle for joint in result.joints) < np.radians(0.37)
+    assert max(joint.shift for joint in result.joints) < 1.3e-3
+    assert result.base == pytest.approx(np.eye(4))
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_two_arms_are_not_aligned_where_the_poses_that_are_told_get_worse(swapped):
+    pair = [pk.load(name).chain() for name in ("stanford", "puma560")]
+    if swapped:
+        pair.reverse()
+    result = pk.compare(*pair)
+    assert result.after.worst_position <= result.before.worst_position
+    assert result.after.mean_position <= result.before.mean_position
+    assert result.aligned_to == "nothing"
+
+
 @pytest.mark.parametrize("name", ["ur5e", "panda"])
 @pytest.mark.parametrize("seed", range(4))
 def test_errors_as_of_a_real_arm_make_no_alignment_and_blame_no_right_joint(name, seed):

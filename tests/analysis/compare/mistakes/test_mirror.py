@@ -54,6 +54,32 @@ def test_a_mirrored_file_is_named_with_the_coordinate_that_is_negated(name, axis
         assert result.after.worst_position < 1e-3 < result.before.worst_position
 
 
+@pytest.mark.parametrize("axis", AXES)
+@pytest.mark.parametrize("name", ["ur5e", "panda", "random 6a"])
+def test_a_mirrored_file_that_is_calibrated_too_is_named_and_its_axes_are_sized(name, axis):
+    chain = arm(name)
+    other = mirrored(worn(chain), axis)
+    for a, b in ((chain, other), (other, chain)):
+        result = compare(a, b, samples=5)
+        assert (result.outcome, result.mistake) == ("differ", "mirrored")
+        assert result.findings[0].startswith(f"model b is a mirrored: {axis} of its base")
+        assert not any(joint.reversed for joint in result.joints)
+        assert max(joint.angle for joint in result.joints) < 0.01
+    # Worn, and not mirrored, it is no mirror: nor with other directions.
+    turned = worn(chain)
+    assert compare(chain, turned, samples=1).mistake == ""
+    turned = turned.replace(screws=-turned.screws)
+    assert compare(chain, turned, samples=1).mistake == ""
+
+
+def worn(chain):
+    """The arm with each axis turned by a milliradian or so and moved by half a millimetre or so."""
+    rng = np.random.default_rng(0)
+    motions = rng.normal(size=(chain.dof, 6)) * [*[1e-3] * 3, *[5e-4] * 3]
+    Ad = se3.adjoint(se3.exp(motions))
+    return chain.replace(screws=(Ad @ chain.screws[..., None])[..., 0])
+
+
 def test_a_mirrored_file_that_stands_elsewhere_is_named_too():
     chain = arm("random 6a")
     other = mirrored(chain, "y").rebased(se3.exp([0.1, 0.2, 0.3, 1, 0, 0]))
