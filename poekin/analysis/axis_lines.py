@@ -106,12 +106,11 @@ def uncoupled_at_zero(chain: Chain) -> Chain:
     if chain.nontrivial_coupling is None and not chain.offset.any():
         return chain
     limits = own_limits(chain)
-    unknown = np.isinf(limits).all(1) & (np.count_nonzero(chain.coupling, axis=1) > 1)
     together = sum_limits(chain.coupling, chain.limits) + chain.offset[:, None]
     bare = chain.replace(
         coupling=None,
         q_names=None,
-        limits=np.where(unknown[:, None], together, limits),
+        limits=np.where(np.isinf(limits), together, limits),
         offset=None,
         velocity_limits=None,
         joint_limits=None,

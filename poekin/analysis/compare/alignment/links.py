@@ -18,21 +18,20 @@ def with_link(pair: Sides, readings: list[Hypothesis]) -> list[Hypothesis]:
     There have to be two axes or more that moved by one motion, and the tool with them: that is what
     a link of another length or twist does to all that is behind it.
     """
-    joints = np.arange(pair.n)
-    moved = np.array([reading.moved for reading in readings]).reshape(-1, pair.n)
     # Where nothing is in front, it is the base that moved.
-    last_still = np.where(moved, 0, joints).max(1, initial=0)
-    which, ks = np.nonzero((joints > last_still[:, None]) & (joints < pair.n - 1))
-    behind = joints >= ks[:, None]
-    fitted = fit(pair, _alignments(pair, readings)[which], False, behind)
+    tries = [(r, k) for r in readings for k in range(1, pair.n - 1) if r.moved[k:].all()]
+    at = _alignments(pair, [reading for reading, _ in tries])
+    ks = np.array([[k] for _, k in tries]).reshape(-1, 1)
+    behind = np.arange(pair.n) >= ks
+    fitted = fit(pair, at, False, behind)
     tools = tool_behind(pair, pair.carriers(fitted)[:, -1])
     apart = behind & (pair.deviations(fitted) > 1.0)
     fits = still(tools, pair.tol) & ~apart.any(1)
     found: dict[int, Hypothesis] = {}
-    for i, k, tool in zip(which[fits], ks[fits], tools[fits], strict=True):
-        reading = readings[i]
-        frames = int(not still(reading.base, pair.tol))
-        found.setdefault(i, replace(reading, tool=tool, frames=frames, link=int(k)))
+    for (reading, k), tool, fitting in zip(tries, tools, fits, strict=True):
+        if fitting:
+            frames = int(not still(reading.base, pair.tol))
+            found.setdefault(id(reading), replace(reading, tool=tool, frames=frames, link=k))
     return list(found.values())
 
 

@@ -44,33 +44,32 @@ def mirror_of(
     """The coordinate of the base whose other sign makes b a, as it stands or, where `moved` is
     wanted, as a calibrated arm or with base and tool elsewhere; None where there is none.
     """
-    mirrors = {axis: mirrored(b, axis) for axis in AXES}
-    stand = {axis: as_they_stand(a, mirror, tol) for axis, mirror in mirrors.items()}
-    one_way = [axis for axis in AXES if _one_way(stand[axis])]
-    for axis in one_way:
-        if not (stand[axis].moved.any() or stand[axis].frames):
+    mirrors = [mirrored(b, axis) for axis in AXES]
+    for axis, mirror in zip(AXES, mirrors, strict=True):
+        reading = as_they_stand(a, mirror, tol)
+        if _one_way(reading) and not (reading.moved.any() or reading.frames):
             return axis
     if not moved:
         return None
-    unmirrored = as_they_stand(a, b, tol)
-    if not (_one_way(unmirrored) and _near(a, b, unmirrored)):
-        for axis in one_way:
-            if _near(a, mirrors[axis], stand[axis]):
-                return axis
+    near = [_near(a, other, tol) for other in (b, *mirrors)]
+    if True in near:
+        return (None, *AXES)[near.index(True)]
     # Mirrors across other planes differ by a motion.
-    reading = agreeing(a, mirrors["x"], tol)
-    if reading is not None and not reading.offset.any():
+    found = agreeing(a, mirrors[0], tol)
+    if found is not None and not found.offset.any():
         return "x"
     return None
 
 
 def _one_way(reading: Hypothesis) -> bool:
     """Whether all directions or none are reversed, as a file keeps the signs of its axes or turns them."""
-    return bool(abs(reading.directions.sum()) == len(reading.directions))
+    return len(np.unique(reading.directions)) == 1
 
 
-def _near(a: Chain, b: Chain, reading: Hypothesis) -> bool:
-    """Whether the poses under a reading differ as those of one arm do."""
+def _near(a: Chain, b: Chain, tol: Tolerances) -> bool:
+    """Whether the poses, as the models stand, differ as those of one arm do."""
+    reading = as_they_stand(a, b, tol)
     x = a.random(0, SAMPLES)
     moved, turned = pose_differences(a.fk(x), reading.poses(b, x))
-    return bool(moved.max() / a.reach + turned.max() / np.pi <= ONE_ARM)
+    errors = moved.max() / a.reach + turned.max() / np.pi
+    return _one_way(reading) and bool(errors <= ONE_ARM)

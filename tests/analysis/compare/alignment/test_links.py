@@ -57,7 +57,7 @@ def test_of_readings_looked_at_together_each_has_its_own_link_or_none():
     chain = arm("panda")
     pair, here = as_it_stands(chain, longer(chain, 4))
     wrong = replace(here, moved=np.zeros(7, bool))
-    first, second = with_link(pair, [here, wrong, here])
+    first, second = with_link(pair, [here, wrong, replace(here)])
     assert (first.link, second.link) == (4, 4)
     assert with_link(pair, []) == []
 
