@@ -91,7 +91,8 @@ def compare(
     base and tool where they are. Where fewer than half of the axes agree under any, as on a
     calibrated arm, or where the poses would be worse than as the models stand, base and tool are
     aligned to all axes by robust least squares if this halves the pose errors, and else not at
-    all; `aligned_to` and the verdict say which. compare(a, b) and compare(b, a) implicate the same
+    all; `aligned_to` and the verdict say which. One joint's zero is offset beside that if it leaves
+    a quarter of the errors or less. compare(a, b) and compare(b, a) implicate the same
     joints.
 
     Where all axes behind a joint moved together, the verdict names the link (`a` or `alpha` of a DH

@@ -59,11 +59,8 @@ class Alignments(Rows):
         return self[np.tile(each, times)]
 
     def moved(self, steps: Array) -> Self:
-        """Alignments to which steps (m, 6 + n) or (m, 6) lead: a motion of the base, changes of zero
+        """Alignments from which steps (m, 6 + n) lead: a motion of the base, changes of zero
         offsets.
         """
         motions = se3.exp(steps[:, :6])
-        z = self.z
-        if steps.shape[1] > 6:
-            z = z + steps[:, 6:]
-        return type(self)(motions @ self.P, z)
+        return type(self)(motions @ self.P, self.z + steps[:, 6:])

@@ -19,9 +19,7 @@ STEPS = 60
 
 @dataclass(frozen=True, eq=False)
 class Linearised(Rows):
-    """Alignments, their residuals r (m, 6 n) and Jacobians J (m, 6 n, 6 + n), or (m, 6 n, 6) where no
-    zero offset is free, and costs r · r (m).
-    """
+    """Alignments, their residuals r (m, 6 n) and Jacobians J (m, 6 n, 6 + n), and costs r · r (m)."""
 
     at: Alignments
     r: Array
@@ -44,8 +42,6 @@ def fit(
     """
     shape = starts.z.shape
     free = np.broadcast_to(free, shape)
-    if not free.any():
-        free = free[:, :0]
     used = np.broadcast_to(used * pair.alike, shape)
     everywhere = np.arange(len(starts))
     best = _linearised(pair, starts[everywhere], free, used)
@@ -103,31 +99,14 @@ def _linearised(
 ) -> Linearised:
     """Residuals at alignments, and their derivatives by the base's pose and by the zero offsets.
 
-    Those of axes that are not used and by zero offsets that are not free are 0; none are
-    made by zero offsets where `free` is (m, 0).
+    Those of axes that are not used and by zero offsets that are not free are 0.
     """
     b = pair.transformed(at)
-    # d Ad(e^xi) S = ad(xi) S = -ad(S) xi
-    weights = (b.signs * used)[..., None, None] * pair.weights
-    J = weights @ -se3.ad(b.axes)
-    if free.shape[1]:
-        J = _beside_zeros(pair, at, b.screws, J, free)
-    shape = len(at), 6 * pair.n
-    residuals = b.residuals * used[..., None]
-    r = residuals.reshape(shape)
-    cost = (r * r).sum(1)
-    return Linearised(at, r, J.reshape(*shape, J.shape[-1]), cost)
-
-
-def _beside_zeros(
-    pair: Sides,
-    at: Alignments,
-    screws: Array,
-    base: Array,
-    free: Marks,
-) -> Array:
-    """Derivatives by the base's pose (m, n, 6, 6), and by zero offsets beside them."""
+    screws = b.screws
     k = pair.suspect_joint
+    # d Ad(e^xi) S = ad(xi) S = -ad(S) xi
+    weights = b.signs[..., None, None] * pair.weights
+    base = weights @ -se3.ad(b.axes)
     if k >= 0:
         screws[:, k] = pair.suspect_screw(screws[:, k])
     # A zero offset turns what is behind it as a turn of the base about the joint's axis would.
@@ -140,4 +119,11 @@ def _beside_zeros(
         in_front = screws[:, :k].swapaxes(1, 2)
         columns[:, behind, :, :k] = base[:, behind] @ in_front[:, None]
     moved = free[:, None] & np.tri(pair.n, k=-1, dtype=bool)
-    return np.concatenate([base, columns * moved[:, :, None]], axis=3)
+    columns *= moved[:, :, None]
+    J = np.concatenate([base, columns], axis=3)
+    J *= used[..., None, None]
+    shape = len(at), 6 * pair.n
+    residuals = b.residuals * used[..., None]
+    r = residuals.reshape(shape)
+    cost = (r * r).sum(1)
+    return Linearised(at, r, J.reshape(*shape, J.shape[-1]), cost)

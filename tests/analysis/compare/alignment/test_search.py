@@ -59,19 +59,27 @@ def test_the_others_blame_one_joint_too_and_each_another_or_for_something_else()
     assert _others(reading(moved=[1], offset=[1]), [axis]) == [axis]
 
 
+def test_of_conventions_the_fewest_count_and_a_moved_base_is_one_of_them():
+    moved_base = reading(reversed_=[1, 2, 3], frames=1)
+    in_place = reading(reversed_=[0, 1, 2])
+    assert _simpler(moved_base, [moved_base, in_place]) is in_place
+    as_many = reading(reversed_=[0, 1, 2, 3])
+    assert _simpler(moved_base, [moved_base, as_many]) is moved_base
+
+
 def test_a_reading_that_blames_fewer_joints_and_moves_no_frame_comes_before_one_that_moves_them():
     first, simple = reading(offset=[0, 1], frames=1), reading(moved=[2])
     assert _simpler(first, [first, simple]) is simple
     for other in (
         reading(moved=[2], frames=1),
-        reading(offset=[2]),
+        reading(offset=[1, 2, 3]),
         reading(moved=[0, 1]),
         reading(moved=[0, 1, 2]),
     ):
         assert _simpler(first, [first, other]) is first
     for kept in (reading(offset=[0, 1]), reading(offset=[0, 1], frames=1, link=2)):
         assert _simpler(kept, [kept, simple]) is kept
-    assert _simpler(first, [reading(), simple, reading(moved=[1])]) is simple
+    assert _simpler(first, [reading(offset=[1, 2, 3]), simple, reading(moved=[1])]) is simple
 
 
 @pytest.mark.parametrize("n", range(5))
