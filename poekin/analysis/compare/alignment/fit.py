@@ -42,9 +42,9 @@ def fit(
     """
     shape = starts.z.shape
     free = np.broadcast_to(free, shape)
-    used = np.broadcast_to(used * pair.alike, shape)
+    shares = np.broadcast_to(np.where(pair.alike, used, 0.0), shape)
     everywhere = np.arange(len(starts))
-    best = _linearised(pair, starts[everywhere], free, used)
+    best = _linearised(pair, starts[everywhere], free, shares)
     damping = np.full(len(starts), 1e-6)
     going = best.cost >= 1e-16
     for _ in range(STEPS):
@@ -56,7 +56,7 @@ def fit(
         steps = _step(here.r, here.J, held)
         slope = -(here.r * applied(here.J, steps)).sum(1)
         tried = here.at.moved(steps)
-        trial = _linearised(pair, tried, free[live], used[live])
+        trial = _linearised(pair, tried, free[live], shares[live])
         least = 1e-12 * here.cost
         better = trial.cost < here.cost
         gains = here.cost - trial.cost >= least
