@@ -174,9 +174,9 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
     beyond = np.zeros(count)
     hit: list[Names] = [()] * count
     tasks: list[TaskNames] = [()] * count
-    for number, k in enumerate(at):
-        if not success[k]:
-            reason[k], beyond[k], hit[k], tasks[k] = follower.failure(number)
+    for number in np.flatnonzero(~success[at]).tolist():
+        k = at[number]
+        reason[k], beyond[k], hit[k], tasks[k] = follower.failure(number)
     nothing = np.zeros(count, np.int64)
     return Solution(
         q,

@@ -30,6 +30,30 @@ TRIES = 8
 path.
 """
 
+AT_ONCE = 64
+"""Poses that a start is followed over before another may be better."""
+
+
+@dataclass(eq=False)
+class _Way:
+    """A start, rows[0], and the joints of `done` poses from pose `first` on; `jump` is what it has
+    moved at most, and it is `stuck` where it does not go on.
+    """
+
+    first: int
+    rows: Array
+    jump: float
+    done: int = 0
+    stuck: bool = False
+
+    @property
+    def end(self) -> int:
+        return self.first + self.done
+
+    @property
+    def q(self) -> Array:
+        return self.rows[1 : 1 + self.done]
+
 
 @dataclass(eq=False)
 class Follower:
@@ -71,62 +95,72 @@ class Follower:
             self.progress(count, count)
         return q, changes
 
-    def on(
-        self,
-        k: int,
-        last: Array,
-        first: bool,
-    ) -> tuple[int, Array]:
+    def on(self, k: int, last: Array, first: bool) -> tuple[int, Array]:
         """The path from pose k on as far as it goes without a jump, beginning at joints `last`; its
         end, and q.
         """
-        targets = self.targets[k:]
-        q = np.empty((len(targets), len(self.most)))
-        done = 0
-        while done < len(targets):
-            anywhere = first and not done
-            done += self._descend(targets[done:], last, q[done:], anywhere)
-            if done in (0, len(targets)):
-                break
-            before = done - 1
-            next_q = self._in_pieces(q[before], targets[before], targets[done])
-            if next_q is None:
-                break
-            q[done] = next_q
-            last = next_q
-            done += 1
-        return k + done, q[:done]
+        way = self._way(k, last)
+        self._extend(way, len(self.targets), first)
+        return way.end, way.q
 
     def best(self, k: int, last: Array | None) -> tuple[int, Array]:
         """The one of several solutions of pose k that gets farthest, and then jumps and moves
         least; its end, and q.
         """
-        tried = np.empty((0, len(self.most)))
-        found = (k, tried)
-        score: tuple[float, ...] = (k,)
+        ways: list[_Way] = []
+        found = self._way(k, self.most)
         asked = self._known is not None and self._known[0] <= k
         if asked and not self._solved(k):
-            return found
+            return k, found.q
         for turn in range(ROUNDS):
             for q0 in self._solutions(k, turn, last):
-                apart = np.abs(tried - q0)
-                far = apart.max(axis=1)
-                if (far < 1e-6).any():
-                    continue
-                tried = np.vstack([tried, q0])
-                end, q = self.on(k, q0, first=False)
-                if last is None:
-                    steps = np.abs(np.diff(q, axis=0))
-                    jump = float(steps.max(initial=0.0))
-                else:
-                    jump = float(np.linalg.norm(q0 - last))
-                if (end, -jump) > score:
-                    found = (end, q)
-                    score = (end, -jump)
-            end = found[0]
-            if end == len(self.targets) or not self._solved(end):
+                if not any(np.abs(way.rows[0] - q0).max() < 1e-6 for way in ways):
+                    jump = 0.0 if last is None else float(np.linalg.norm(q0 - last))
+                    ways.append(self._way(k, q0, jump))
+            self._race(ways, last is None)
+            found = max(ways, key=lambda way: (way.done, -way.jump), default=found)
+            if found.end == len(self.targets) or not self._solved(found.end):
                 break
-        return found
+        return found.end, found.q
+
+    def _way(self, k: int, start: Array, jump: float = 0.0) -> _Way:
+        rows = np.empty((len(self.targets) - k + 1, len(start)))
+        rows[0] = start
+        return _Way(k, rows, jump)
+
+    def _race(self, ways: list[_Way], moving: bool) -> None:
+        """Follow ways, each time the one that jumps least so far, until that one is at the end: all
+        others jump more already. Where `moving`, every step counts as a jump.
+        """
+        while running := [way for way in ways if not way.stuck]:
+            way = min(running, key=lambda way: way.jump)
+            if way.end == len(self.targets):
+                break
+            before = max(way.done - 1, 0)
+            self._extend(way, way.end + AT_ONCE)
+            if moving:
+                steps = np.abs(np.diff(way.q[before:], axis=0))
+                way.jump = float(steps.max(initial=way.jump))
+
+    def _extend(self, way: _Way, stop: int, first: bool = False) -> None:
+        """Follow a way up to pose `stop`, or as far as it goes; where `first`, its first pose is at
+        any distance from the start.
+        """
+        targets = self.targets[way.first : stop]
+        rows = way.rows
+        done = way.done
+        while done < len(targets):
+            anywhere = first and not done
+            done += self._descend(targets[done:], rows[done], rows[done + 1 :], anywhere)
+            if done in (0, len(targets)):
+                break
+            next_q = self._in_pieces(rows[done], targets[done - 1], targets[done])
+            if next_q is None:
+                break
+            done += 1
+            rows[done] = next_q
+        way.done = done
+        way.stuck = done < len(targets)
 
     def failure(self, k: int) -> tuple[str, float, Names, TaskNames]:
         """Cause for which pose k is not reached: its entries in `Causes`."""
@@ -150,32 +184,21 @@ class Follower:
         """
         from ...engine.kernels import follow_kernels  # imports Numba
 
-        arm = self.problem.fast.hybrid_address
-        asked = (
+        count = 1 if anywhere else len(targets)
+        done = follow_kernels.follow.call(
+            self.problem.fast.hybrid_address,
+            targets[:count],
+            start.copy(),
             self.problem.domain.limits,
             self.problem.locked,
             self.problem.options,
+            np.full_like(start, np.inf) if anywhere else self.most,
+            q,
+            np.empty((count, codes.INFO)),
         )
-        info = np.empty((len(targets), codes.INFO))
-
-        def go(some: slice, start: Array, most: Array) -> int:
-            return follow_kernels.follow.call(
-                arm,
-                targets[some],
-                start.copy(),
-                *asked,
-                most,
-                q[some],
-                info[some],
-            )
-
-        if not anywhere:
-            return go(slice(None), start, self.most)
-        unbounded = np.full_like(start, np.inf)
-        if not go(slice(1), start, unbounded):
-            return 0
-        rest = slice(1, None)
-        return 1 + go(rest, q[0], self.most)
+        if done and anywhere:
+            done += self._descend(targets[1:], q[0], q[1:])
+        return done
 
     def _in_pieces(
         self,

@@ -170,13 +170,16 @@ class Choice:
             self.turns.append(turn)
             return np.tile(np.array(rounds[turn])[:, None], (1, 3))
 
-        def on(k: int, q0: np.ndarray, first: bool) -> tuple[int, np.ndarray]:
-            assert not first
-            self.tried.append(float(q0[0]))
-            end, step = ends[float(q0[0])]
-            return end, q0 + step * np.tile(np.arange(end - k, dtype=float)[:, None], (1, 3))
+        def extend(way: Any, stop: int) -> None:
+            assert way.done == 0
+            assert stop >= 5
+            self.tried.append(float(way.rows[0, 0]))
+            end, step = ends[float(way.rows[0, 0])]
+            way.done = end - way.first
+            way.rows[1 : way.done + 1] = way.rows[0] + step * np.arange(way.done)[:, None]
+            way.stuck = end < 5
 
-        self.f._solutions, self.f.on = solutions, on  # type: ignore[method-assign]
+        self.f._solutions, self.f._extend = solutions, extend  # type: ignore[method-assign]
         self.f._solved = lambda k: k in solved  # type: ignore[method-assign]
 
 
@@ -192,6 +195,80 @@ def test_the_start_that_gets_farthest_and_then_has_the_smallest_largest_step_is_
     assert (end, q[0].tolist()) == (5, [4.0] * 3)
     c = Choice({1.0: (5, 0.5), 2.0: (5, 0.25)}, [[1.0, 2.0]], set())
     assert c.f.best(0, None)[1][0, 0] == 2.0
+
+
+@pytest.mark.parametrize("after", [False, True], ids=["first", "after a pose"])
+@pytest.mark.parametrize("seed", range(20))
+def test_the_start_that_is_chosen_is_that_of_all_of_them_followed_to_the_end(seed, after):
+    count = 300
+    rng = np.random.default_rng(seed)
+    f = one(count)
+    # each way moves now and then, some of them alike, where what is followed at a time may end
+    steps = np.zeros((8, count, 3))
+    for way in steps:
+        way[rng.choice([1, 63, 64, 65, 127, 128, 129, 299], 3), 1] = rng.integers(1, 5, 3)
+    ways = 0.5 + np.arange(8.0)[:, None, None] + np.cumsum(steps, axis=1)
+    ends = rng.choice([count, *rng.integers(1, count, 2)], 8)
+    last = np.full(3, 3.6) if after else None
+
+    def extend(way: Any, stop: int) -> None:
+        i = int(way.rows[0, 0])
+        assert not way.stuck
+        np.testing.assert_array_equal(way.q, ways[i, : way.done])
+        way.done = min(stop, ends[i])
+        way.rows[1 : way.done + 1] = ways[i, : way.done]
+        way.stuck = way.done < min(stop, count)
+
+    starts = np.tile(np.arange(8.0)[:, None], (1, 3))
+    f._solutions = lambda *_: starts  # type: ignore[method-assign]
+    f._extend, f._solved = extend, lambda k: False  # type: ignore[method-assign]
+    end, q = f.best(0, last)
+    if last is None:
+        jumps = [np.abs(np.diff(ways[i, : ends[i]], axis=0)).max(initial=0) for i in range(8)]
+    else:
+        jumps = np.linalg.norm(starts - last, axis=1)
+    best = max(range(8), key=lambda i: (ends[i], -jumps[i]))
+    assert end == ends[best]
+    np.testing.assert_array_equal(q, ways[best, :end])
+
+
+def test_a_start_that_jumps_more_than_another_does_to_the_end_is_followed_no_farther():
+    f = one(200)
+    done_of: dict[float, int] = {}
+
+    def extend(way: Any, stop: int) -> None:
+        start = float(way.rows[0, 0])
+        way.done = min(stop, 200)
+        way.rows[1 : way.done + 1] = start * np.arange(way.done)[:, None]
+        done_of[start] = way.done
+
+    starts = np.tile([[0.3], [0.1], [0.2]], (1, 3))
+    f._solutions = lambda *_: starts  # type: ignore[method-assign]
+    f._extend = extend  # type: ignore[method-assign]
+    end, q = f.best(0, None)
+    assert (end, q[1, 0]) == (200, 0.1)
+    assert follower.AT_ONCE == 64
+    assert done_of == {0.3: 64, 0.1: 200, 0.2: 64}
+    done_of.clear()
+    # after a pose the nearest goes first, and no other where it gets to the end
+    assert f.best(0, np.full(3, 0.19))[1][1, 0] == 0.2
+    assert done_of == {0.2: 200}
+
+
+def test_a_way_that_is_followed_in_parts_is_the_way_that_is_followed_at_once():
+    arm = pk.load("ur5").chain().compile()
+    q = motion.joint([0.0, -1.2, 1.6, -1.9, -1.5, 0.0], [3.0, -0.2, 0.6, -2.9, -0.5, 0.5],
+                     np.linspace(0, 1, 40))  # fmt: skip
+    problem = make_problem(arm, SETTINGS._replace(task="pose"))
+    f = follower.Follower(problem, arm.fk(q), np.full(6, 0.05), None)  # every step is in pieces
+    at_once, in_parts = f._way(0, q[0]), f._way(0, q[0])
+    f._extend(at_once, 40)
+    np.testing.assert_allclose(at_once.q, q, rtol=0, atol=1e-6)
+    for stop in range(3, 43, 3):
+        f._extend(in_parts, stop)
+    np.testing.assert_array_equal(in_parts.q, at_once.q)
+    assert not at_once.stuck
+    assert not in_parts.stuck
 
 
 def test_starts_are_looked_for_in_four_rounds_until_one_gets_to_the_end_and_none_is_tried_twice():
