@@ -150,8 +150,8 @@ class Follower:
         rows = way.rows
         done = way.done
         while done < len(targets):
-            anywhere = first and not done
-            done += self._descend(targets[done:], rows[done], rows[done + 1 :], anywhere)
+            rest = rows[done + 1 :]
+            done += self._descend(targets[done:], rows[done], rest, first and not done)
             if done in (0, len(targets)):
                 break
             next_q = self._in_pieces(rows[done], targets[done - 1], targets[done])

@@ -26,9 +26,7 @@ from ..result import CalibrationData
 
 ROUNDING = 2e-14
 """Least error of a pose, rad and reaches: that of forward kinematics in double precision."""
-_STEP = 1e-5
-"""Step of a difference quotient of the screws, whose second derivatives are about their size."""
-_AT_ONCE = 2_000_000  # numbers of one product
+_AT_ONCE = 200_000  # numbers of one product, which stay in the processor's cache
 
 
 class ReadingErrors(NamedTuple):
@@ -67,29 +65,26 @@ def propagation(found: CalibrationData, q: Array, poses: Poses) -> Propagation:
     whitened = J / deviations[:, None] * scale
     inverse = np.linalg.pinv(whitened.reshape(-1, len(scale)), rcond=RANK)
     gain = scale[:, None] * inverse
-    return Propagation(
-        read_only(errors),
-        read_only(J),
-        read_only(gain.reshape(len(scale), -1, 6) / deviations),
-        read_only(found.chain.jacobian(q, "hybrid")),
-        read_only(deviations),
-    )
+    gain = gain.reshape(len(scale), -1, 6) / deviations
+    hybrid = found.chain.jacobian(q, "hybrid")
+    return Propagation(*map(read_only, (errors, J, gain, hybrid, deviations)))
 
 
 def worst_case(Y: Array, fit: Propagation, largest: ReadingErrors) -> Array:
-    """Largest error (...,) of Y p, Y (..., P)."""
-    pairs = len(fit.errors)
+    """Largest error (...,) of Y p, Y (..., k) for the first k of the parameters."""
     rows = Y.reshape(-1, Y.shape[-1])
-    flat = fit.gain.reshape(len(fit.gain), -1)
-    bound = np.empty(len(rows))
-    count = max(1, _AT_ONCE // (6 * pairs))
-    for start in range(0, len(rows), count):
+    gain = fit.gain[: rows.shape[1]]
+    off = largest.joints > 0
+    joints = np.einsum("pni,nik->pnk", gain, fit.jacobian[..., off]) * largest.joints[off]
+    # what counts by itself, and what counts by the length of three numbers
+    lines = np.concatenate([joints, gain[..., 3:] * largest.position], axis=2)
+    turns = np.moveaxis(gain[..., :3] * largest.rotation, 2, 0)
+    bound = np.zeros(len(rows))
+    count = 1 + _AT_ONCE // (1 + len(rows) * lines.shape[2])
+    for start in range(0, len(fit.errors), count):
         some = slice(start, start + count)
-        L = (rows[some] @ flat).reshape(-1, pairs, 6)
-        of_joints = np.abs((L[:, :, None] @ fit.jacobian)[:, :, 0]) @ largest.joints
-        of_rotations = np.linalg.norm(L[..., :3], axis=-1) * largest.rotation
-        of_positions = np.abs(L[..., 3:]).sum(axis=-1) * largest.position
-        bound[some] = (of_joints + of_rotations + of_positions).sum(axis=1)
+        bound += np.abs(rows @ lines[:, some].reshape(len(lines), -1)).sum(axis=1)
+        bound += np.linalg.norm(rows @ turns[..., some], axis=0).sum(axis=1)
     return bound.reshape(Y.shape[:-1])
 
 
@@ -101,21 +96,12 @@ def screw_bounds(found: CalibrationData, fit: Propagation, largest: ReadingError
     by a^2 |v| / 2 + a s: twice that is added.
     """
     chain = found.chain
-    first = worst_case(screw_jacobian(found.error_model, found.values), fit, largest)
+    first = worst_case(found.error_model.screw_jacobian(found.values), fit, largest)
     tilt, shift = np.linalg.norm(first.reshape(-1, 2, 3), axis=2).T
     moments = np.linalg.norm(chain.screws[:, 3:], axis=1)
     turned = tilt**2 + ROUNDING
     moved = tilt**2 * moments + 2.0 * tilt * shift + ROUNDING * (chain.reach + moments)
     return first + np.repeat(np.stack([turned, moved], axis=1), 3, axis=1)
-
-
-def screw_jacobian(model: ErrorModel, p: Array) -> Array:
-    """Derivatives (n, 6, P) of the screws in the base frame, by central differences."""
-    columns = []
-    for step in _STEP * np.eye(len(p)):
-        moved = model.joints(p + step).screws - model.joints(p - step).screws
-        columns.append(moved / (2.0 * _STEP))
-    return np.stack(columns, axis=-1)
 
 
 def pose_jacobian(model: ErrorModel, p: Array, q: Array) -> Array:

@@ -33,9 +33,7 @@ class Grid(NamedTuple):
         return 0.5 * self.unit * 10.0**-self.places
 
     def __str__(self) -> str:
-        gap = " "
-        if self.symbol == "°":
-            gap = ""
+        gap = "" if self.symbol == "°" else " "
         return f"{10.0**-self.places:g}{gap}{self.symbol}"
 
 
@@ -55,9 +53,9 @@ _MILLIMETRE = Grid(1e-3, "mm", 0)
 _PLAIN = Grid(1.0, "1", 0)
 
 
-def angle_grid(values: Array, share: float = 1.0) -> Grid | None:
-    """Coarsest grid of angles, in degrees or rad, that this share of them lies on."""
-    return _coarsest(values, (_DEGREE, _RADIAN), share)
+def angle_grid(values: Array) -> Grid | None:
+    """Coarsest grid of angles, in degrees or rad, that all of them lie on."""
+    return _coarsest(values, (_DEGREE, _RADIAN), 1.0)
 
 
 def length_grid(values: Array) -> Grid | None:
@@ -73,15 +71,16 @@ def rotation_grid(R: Array) -> RotationGrid | None:
     than 1) and 3 h / sqrt(2) (half of R - R^T counts). Other sequences of angles and quaternions,
     which are made unit again where they are read, leave no grid.
     """
-    found = angle_grid(rpy.angles(R), _SHARE)
-    if found is not None:
-        return RotationGrid(found, "roll, pitch, yaw", math.sqrt(6.0) * found.half)
-    found = angle_grid(so3.log(R), _SHARE)
-    if found is not None:
-        return RotationGrid(found, "rotation vector", math.sqrt(3.0) * found.half)
-    found = _coarsest(R, (_PLAIN,), 1.0)
-    if found is not None:
-        return RotationGrid(found, "matrix", 3.0 / math.sqrt(2.0) * found.half)
+    angles = _DEGREE, _RADIAN
+    ways = (
+        ("roll, pitch, yaw", rpy.angles(R), angles, _SHARE, math.sqrt(6.0)),
+        ("rotation vector", so3.log(R), angles, _SHARE, math.sqrt(3.0)),
+        ("matrix", R, (_PLAIN,), 1.0, 3.0 / math.sqrt(2.0)),
+    )
+    for what, values, units, share, times in ways:
+        found = _coarsest(values, units, share)
+        if found is not None:
+            return RotationGrid(found, what, times * found.half)
     return None
 
 

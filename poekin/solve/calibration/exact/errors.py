@@ -40,19 +40,20 @@ class Digits(NamedTuple):
     positions: Grid | None
     rotations: RotationGrid | None
 
+    @property
+    def halves(self) -> Array:
+        """Half a unit of the last digit of rotations, rad, and positions, m; 0 without digits."""
+        return np.array([_half(self.rotations and self.rotations.grid), _half(self.positions)])
+
     def __str__(self) -> str:
-        what = ""
-        rotations = None
-        if self.rotations is not None:
-            what = f" ({self.rotations.what})"
-            rotations = self.rotations.grid
         named = {
             "joint angles": self.angles,
             "joint lengths": self.lengths,
             "positions": self.positions,
-            f"rotations{what}": rotations,
         }
         parts = [f"{name} to {grid}" for name, grid in named.items() if grid is not None]
+        if self.rotations is not None:
+            parts.append(f"rotations ({self.rotations.what}) to {self.rotations.grid}")
         return ", ".join(parts)
 
 
@@ -68,26 +69,13 @@ class Judged(NamedTuple):
 
 
 class _Expected(NamedTuple):
-    """Sum of squares of the weighted residuals, the one that rounding lets expect, its degrees of
-    freedom, and the expected deviations (2,), rad and m.
+    """Whether the residuals refute errors as large as these, whether they are larger than these
+    errors make them, and the deviations (2,), rad and m, that are to be expected.
     """
 
-    found: float
-    mean: float
-    freedom: float
+    too_small: bool
+    too_large: bool
     deviations: Array
-
-    @property
-    def too_small(self) -> bool:
-        """Whether the residuals refute errors as large as these."""
-        least = chi_square(self.freedom, -_SURE) / self.freedom
-        return self.found * _MARGIN < self.mean * least
-
-    @property
-    def too_large(self) -> bool:
-        """Whether the residuals are larger than these errors make them."""
-        most = chi_square(self.freedom, _SURE) / self.freedom
-        return self.found > _MARGIN * self.mean * most
 
 
 def printed_digits(chain: Chain, q: Array, T: Array) -> Digits:
@@ -115,13 +103,16 @@ def judge(printed: Digits, fit: Propagation, chain: Chain) -> Judged:
         expected = _expected(digits, fit, left, chain)
         if not expected.too_small:
             break
-    floor = ROUNDING * np.array([1.0, chain.reach])
-    allowed = np.maximum(expected.deviations, np.array([LIMITS[0], LIMITS[1] * chain.reach]))
-    unknown = np.array([digits.rotations is None, digits.positions is None])
+    sizes = np.array([1.0, chain.reach])
+    allowed = np.maximum(expected.deviations, LIMITS * sizes)
+    unknown = digits.halves == 0
     beyond = expected.too_large and not unknown.all()
     beyond |= bool((unknown & (deviations > _MARGIN * allowed)).any())
-    errors = np.where(unknown, TIMES * deviations, _pose_errors(digits))
-    rotation, position = np.maximum(errors, floor).tolist()
+    rounded = digits.halves
+    if digits.rotations is not None:
+        rounded[0] = digits.rotations.radius
+    errors = np.where(unknown, TIMES * deviations, rounded)
+    rotation, position = np.maximum(errors, ROUNDING * sizes).tolist()
     largest = ReadingErrors(_joint_errors(digits, chain), rotation, position)
     if digits != printed:  # readings that were said with fewer digits than they had
         digits = digits._replace(angles=None, lengths=None)
@@ -140,25 +131,22 @@ def _borne_out(printed: Digits, deviations: Array, left: Array) -> Digits:
     """The digits without those of rotations or positions that the residuals know nothing of, as
     where an arm does not turn: zeros lie on every grid.
     """
-    small = deviations / _NOTHING
     telling = left.reshape(2, 3).sum(axis=1) >= _TELLING
-    rotations = printed.rotations
-    if rotations is not None and telling[0] and small[0] < rotations.grid.half:
-        rotations = None
-    positions = printed.positions
-    if positions is not None and telling[1] and small[1] < positions.half:
-        positions = None
-    return printed._replace(rotations=rotations, positions=positions)
+    idle = telling & (deviations < _NOTHING * printed.halves)
+    if idle[0]:
+        printed = printed._replace(rotations=None)
+    if idle[1]:
+        printed = printed._replace(positions=None)
+    return printed
 
 
 def _refined(printed: Digits) -> Iterator[Digits]:
     """The digits as they were found, then with more and more of the joint readings', at last all."""
-    for more in range(MOST):
+    for more in (*range(MOST), MOST + 1):
         yield printed._replace(
             angles=_finer(printed.angles, more),
             lengths=_finer(printed.lengths, more),
         )
-    yield printed._replace(angles=None, lengths=None)
 
 
 def _finer(grid: Grid | None, more: int) -> Grid | None:
@@ -175,14 +163,8 @@ def _expected(digits: Digits, fit: Propagation, left: Array, chain: Chain) -> _E
     of the degrees of freedom: Satterthwaite 1946.
     """
     joints = _joint_errors(digits, chain)
-    halves = np.zeros(2)
-    if digits.rotations is not None:
-        halves[0] = digits.rotations.grid.half
-    if digits.positions is not None:
-        halves[1] = digits.positions.half
-    known = np.repeat(halves > 0, 3)
-    if not known.any():
-        known[:] = True
+    halves = digits.halves
+    known = np.repeat((halves > 0) | ~halves.any(), 3)
     halves = np.maximum(halves, ROUNDING * np.array([1.0, chain.reach]))
     moved = fit.jacobian * joints
     covariance = (moved @ np.swapaxes(moved, 1, 2) + np.diag(np.repeat(halves**2, 3))) / 3.0
@@ -190,11 +172,11 @@ def _expected(digits: Digits, fit: Propagation, left: Array, chain: Chain) -> _E
     weighted = (covariance / np.outer(fit.deviations, fit.deviations))[:, known][:, :, known]
     squares = np.diagonal(weighted, axis1=1, axis2=2).sum(axis=0)
     mean = float(squares @ left[known]) / len(fit.errors)
-    residuals = (fit.errors / fit.deviations)[:, known]
+    freedom = max(1.0, mean * float(squares.sum()) / float(np.sum(weighted**2)))
+    found = freedom * float(np.sum((fit.errors / fit.deviations)[:, known] ** 2))
     return _Expected(
-        found=float(np.sum(residuals**2)),
-        mean=mean,
-        freedom=max(1.0, mean * float(squares.sum()) / float(np.sum(weighted**2))),
+        too_small=found * _MARGIN < mean * chi_square(freedom, -_SURE),
+        too_large=found > _MARGIN * mean * chi_square(freedom, _SURE),
         deviations=np.sqrt(variances.reshape(2, 3).mean(axis=1)),
     )
 
@@ -205,20 +187,13 @@ def _deviations(fit: Propagation, left: Array) -> Array:
     return np.sqrt(squares / np.maximum(left.reshape(2, 3).sum(axis=1), 1.0))
 
 
-def _pose_errors(digits: Digits) -> Array:
-    """Largest errors (2,) of rotations, rad, and positions, m, of known digits."""
-    errors = np.zeros(2)
-    if digits.rotations is not None:
-        errors[0] = digits.rotations.radius
-    if digits.positions is not None:
-        errors[1] = digits.positions.half
-    return errors
-
-
 def _joint_errors(digits: Digits, chain: Chain) -> Array:
     """Largest error (m,) of each coordinate, rad or m."""
-    halves = [0.0 if grid is None else grid.half for grid in (digits.angles, digits.lengths)]
-    return np.where(_turning(chain), *halves)
+    return np.where(_turning(chain), _half(digits.angles), _half(digits.lengths))
+
+
+def _half(grid: Grid | None) -> float:
+    return 0.0 if grid is None else grid.half
 
 
 def _turning(chain: Chain) -> Mask:

@@ -165,13 +165,11 @@ def _why(chain: Chain, q: Array, poses: Poses, linear: Propagation) -> str:
 
 def _remarks(moved: str, fit: _Fit) -> list[str]:
     """Remarks on frames, digits and number of the pairs."""
-    remarks = []
-    if moved:
-        remarks.append(moved)
     digits = str(fit.judged.digits)
-    if digits:
-        remarks.append(f"the digits of the pairs are the limit: {digits}")
     count = len(fit.linear.errors)
-    if count < FEW:
-        remarks.append(f"{count} pairs: {FEW} and more say better whether the arm is a rigid one")
-    return remarks
+    remarks = {
+        moved: moved,
+        f"the digits of the pairs are the limit: {digits}": digits,
+        f"{count} pairs: {FEW} and more say better whether the arm is a rigid one": count < FEW,
+    }
+    return [words for words, holds in remarks.items() if holds]

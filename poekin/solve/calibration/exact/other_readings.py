@@ -29,13 +29,6 @@ class Aligned(NamedTuple):
     moved: str = ""
 
 
-class _Reading(NamedTuple):
-    """The joint readings taken otherwise, and that in words."""
-
-    words: str
-    q: Array
-
-
 def aligned(chain: Chain, q: Array, poses: Poses) -> Aligned:
     """The arm in the frames of the poses (N, 4, 4) where it is near them in no others.
 
@@ -61,7 +54,7 @@ def hint(chain: Chain, q: Array, poses: Poses) -> str:
     """End of a message: the reading of the pairs that explains them much better, "" for none."""
     as_given = _missed(chain, q, poses)
     best = min(
-        ((_missed(chain, other.q, poses), other.words) for other in _readings(chain, q)),
+        ((_missed(chain, other, poses), words) for words, other in _readings(chain, q)),
         default=(np.inf, ""),
     )
     length, words = best
@@ -122,8 +115,10 @@ def _missed(chain: Chain, q: Array, poses: Poses) -> float:
     return miss.length
 
 
-def _readings(chain: Chain, q: Array) -> Iterator[_Reading]:
-    """Readings that follow one another, are reversed, or stand in another order."""
+def _readings(chain: Chain, q: Array) -> Iterator[tuple[str, Array]]:
+    """The joint readings taken otherwise, and that in words: they follow one another, are reversed,
+    or stand in another order.
+    """
     names = [escape_unprintable(name, 40) for name in chain.q_names]
     turns = [k for k in range(chain.dof) if chain.is_angle(k)]
     for i in turns:
@@ -134,16 +129,16 @@ def _readings(chain: Chain, q: Array) -> Iterator[_Reading]:
                 other = q.copy()
                 other[:, i] += sign * q[:, j]
                 words = f"{names[i]} = {names[i]} {word} {names[j]}"
-                yield _Reading(f"the readings coupled, {words!r}", other)
+                yield f"the readings coupled, {words!r}", other
     for i in range(chain.dof):
         other = q.copy()
         other[:, i] *= -1.0
-        yield _Reading(f"{names[i]} reversed", other)
+        yield f"{names[i]} reversed", other
     for i in range(chain.dof):
         for j in range(i):
             other = q.copy()
             other[:, [i, j]] = q[:, [j, i]]
-            yield _Reading(f"{names[j]} and {names[i]} exchanged", other)
+            yield f"{names[j]} and {names[i]} exchanged", other
 
 
 def _frames(chain: Chain, q: Array, poses: Poses) -> tuple[Array, Array] | None:

@@ -137,6 +137,12 @@ class ErrorModel:
         limits = self.nominal.limits
         return arm.replace(coupling=C, limits=limits, joint_limits=self.nominal.joint_limits)
 
+    def screw_jacobian(self, p: Array) -> Array:
+        """Derivatives (n, 6, k) of the screws in the base frame by the k tilts and shifts, which
+        are the first parameters: dA = [d(e^eta) e^-eta, A].
+        """
+        return -se3.ad(self.joints(p).screws) @ self._moves(self.errors(p).screws)
+
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""
 
@@ -191,18 +197,20 @@ class ErrorModel:
 
     def _screw_twists(self, eta: Array, derivatives: Array) -> Array:
         """Space twists (N, 6, k) of the tilts and shifts, from those of the screws (N, 6, n, 6)."""
-        n = len(eta)
         N = len(derivatives)
-        each = np.arange(n)
-        across = np.zeros((n, 6, n, 4))
-        across[each, :, each] = se3.left_jacobian(eta) @ self._across
-        moves = across[:, :, self._free.screws]
+        moves = self._moves(eta)
         count = moves.shape[2]
         twists = blocked_product(
-            derivatives.reshape(N * 6, 6 * n),
-            moves.reshape(6 * n, count),
+            derivatives.reshape(N * 6, 6 * len(eta)),
+            moves.reshape(6 * len(eta), count),
         )
         return twists.reshape(N, 6, count)
+
+    def _moves(self, eta: Array) -> Array:
+        """Twists (n, 6, k) d(e^eta) e^-eta of the joints' screws per unit of each tilt and shift."""
+        moves = se3.left_jacobian(eta) @ self._across
+        own = np.eye(len(eta))[:, None, :, None]
+        return (moves[:, :, None] * own)[:, :, self._free.screws]
 
 
 def _key(p: Array, q: Array) -> tuple[bytes, int, bytes]:

@@ -11,10 +11,10 @@ from poekin.solve.calibration.exact.bounds import (
     pose_jacobian,
     propagation,
     screw_bounds,
-    screw_jacobian,
     worst_case,
 )
 from poekin.solve.calibration.measurements.poses import Poses
+from poekin.solve.calibration.model.error_model import ErrorModel
 
 ARM = pk.load("ur10e").chain()
 MADE = pk.calibration.simulated(ARM, 12, noise=(0, 0), seed=1)
@@ -87,8 +87,7 @@ def test_jacobians_are_the_difference_quotients_of_screws_and_poses():
     step = 1e-6 * np.random.default_rng(1).normal(size=30)
     plus = model.joints(FOUND.values + step)
     minus = model.joints(FOUND.values - step)
-    screws = screw_jacobian(model, FOUND.values) @ step
-    # second order of the quotient's own step, 1e-10, times that of this one
+    screws = model.screw_jacobian(FOUND.values) @ step[:24]
     np.testing.assert_allclose(2 * screws, plus.screws - minus.screws, rtol=0, atol=1e-14)
     q = ARM.random(1, 3)
     moved = pose_jacobian(model, FOUND.values, q) @ step
@@ -96,3 +95,19 @@ def test_jacobians_are_the_difference_quotients_of_screws_and_poses():
     turned = pk.so3.log(a[:, :3, :3] @ np.swapaxes(b[:, :3, :3], 1, 2))
     np.testing.assert_allclose(2 * moved[:, :3], turned, rtol=0, atol=1e-14)
     np.testing.assert_allclose(2 * moved[:, 3:], a[:, :3, 3] - b[:, :3, 3], rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize(("every", "count"), [(1, 10), (2, 8)])
+def test_screws_turn_and_shift_as_their_parameters_say(every, count):
+    arm = pk.Chain.from_space(
+        [[0, 0, 1, 0.1, 0, 0.02], [0, 0, 0, 0.6, 0.8, 0], [0, 1, 0, -0.4, 0, 0.5]],
+        pk.se3.exp([0.2, -0.1, 0.3, 0.9, 0.1, 0.4]),
+    )  # helical, prismatic, revolute
+    moving = arm.joint_names[::every]
+    model = ErrorModel(arm, ("screws", "home", "offsets", "gains"), moving)
+    p, step = 0.1 * np.random.default_rng(0).normal(size=(2, len(model.parameters)))
+    D = model.screw_jacobian(p)
+    assert D.shape == (3, 6, count)
+    h = 1e-5
+    quotient = (model.joints(p + h * step).screws - model.joints(p - h * step).screws) / (2 * h)
+    np.testing.assert_allclose(D @ step[:count], quotient, rtol=0, atol=1e-10)
