@@ -74,7 +74,7 @@ RESULTS: dict[str, str] = {
     "poekin.model.geometry.hp.HPForm": "chain",
     "poekin.analysis.compare.comparison.Comparison": "compare",
     "poekin.analysis.compare.comparison.JointComparison": "compare",
-    "poekin.analysis.compare.comparison.PoseErrors": "compare",
+    "poekin.analysis.compare.comparison.PoseDifferences": "compare",
     "poekin.analysis.axes.AxesReport": "compare",
     "poekin.analysis.axes.AxisPair": "compare",
     "poekin.analysis.shapes.Shape": "compare",

@@ -47,7 +47,7 @@ def test_an_unknown_command_is_one_message(refused):
     ("words", "message"),
     [
         (["jacobian", "ur5e"], "Missing option '--frame': space | body | hybrid "),
-        (["emit", "ur5e"], "Missing option '--lang': c (C99, math.h only) or python "),
+        (["emit", "ur5e"], "Missing option '--lang': c (C99, math.h only) | python "),
         (["fk"], "Missing argument 'FILE': A URDF, MJCF, "),
     ],
     ids=["frame", "language", "file"],

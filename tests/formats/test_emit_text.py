@@ -147,10 +147,10 @@ void rod_jacobian_body_angles(const double *q, double *x)
 
 void rod_jacobian_body_sincos(const double *s, const double *c, const double *q, double *J)
 {
-    const double q1 = q[1];
-    const double v0 = q1 + 0.5;
     (void)s;
     (void)c;
+    const double q1 = q[1];
+    const double v0 = q1 + 0.5;
 """
 
 MAIN = """\

@@ -15,7 +15,7 @@ from ...model.kinematics.arm import Arm, chain_of
 from ..axis_lines import POSITION, ROTATION, uncoupled_at_zero
 from .alignment.diagnosis import Diagnosis, diagnose
 from .alignment.hypotheses import Hypothesis, as_they_stand
-from .comparison import Comparison, PoseErrors
+from .comparison import Comparison, PoseDifferences
 from .differences.conventions import BUT_NAMES, Asked, Convention, checked, judged
 from .differences.end_zeros import with_end_zeros
 from .differences.findings import headline, make_findings
@@ -283,16 +283,16 @@ def _degrees(pair: Matched, reading: Hypothesis) -> _Mistake:
     return RIGHT
 
 
-def _before(pair: Matched | None) -> PoseErrors | None:
+def _before(pair: Matched | None) -> PoseDifferences | None:
     """Pose errors at the same coordinates, as the models stand."""
     if pair is None:
         return None
     return _pose_errors(pair.a.fk(pair.x), pair.b.fk(pair.y))
 
 
-def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
+def _pose_errors(ours: Array, theirs: Array) -> PoseDifferences:
     distance, angle = pose_differences(ours, theirs)
-    return PoseErrors(
+    return PoseDifferences(
         float(distance.max()),
         float(distance.mean()),
         float(angle.max()),

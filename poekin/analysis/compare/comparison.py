@@ -104,7 +104,7 @@ class JointComparison(Result):
 
 
 @dataclass(frozen=True)
-class PoseErrors(Result):
+class PoseDifferences(Result):
     """Differences of two models' poses over random configurations.
 
     Attributes
@@ -150,7 +150,7 @@ class Comparison(Result):
     base, tool : (4, 4) ndarray or None
         Pose of b's base frame in a's, and of a's tool frame in b's, m; None where the models could
         not be matched, and `tool` of a strict comparison.
-    before, after : PoseErrors or None
+    before, after : PoseDifferences or None
         Pose errors at the same coordinates, as the models stand, and at the same joint values under
         the alignment.
     alternatives : tuple of str
@@ -187,8 +187,8 @@ class Comparison(Result):
     joints: tuple[JointComparison, ...] = ()
     base: Array | None = None
     tool: Array | None = None
-    before: PoseErrors | None = None
-    after: PoseErrors | None = None
+    before: PoseDifferences | None = None
+    after: PoseDifferences | None = None
     alternatives: tuple[str, ...] = ()
     unmatched_joints: tuple[str, ...] | None = None
     same: tuple[str, ...]

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 import poekin as pk
-from poekin.analysis.compare.comparison import JointComparison, PoseErrors
+from poekin.analysis.compare.comparison import JointComparison, PoseDifferences
 
 JOINT = JointComparison(
     3, "elbow", "e", "revolute", "revolute", math.radians(0.5), 1e-3, 2e-3, math.radians(-4),
@@ -27,17 +27,17 @@ def test_a_joint_is_summed_up_in_mm_and_degrees():
 
 
 def test_pose_errors_are_summed_up_in_mm_and_degrees():
-    errors = PoseErrors(0.0123, 0.001, math.radians(2), math.radians(0.25))
+    errors = PoseDifferences(0.0123, 0.001, math.radians(2), math.radians(0.25))
     assert str(errors) == "worst 12.3 mm, 2°; mean 1 mm, 0.25°"
 
 
 def test_the_rounding_of_poses_is_summed_up_as_no_difference():
-    errors = PoseErrors(7e-16, 1e-15, 1.2e-16, 0.0)
+    errors = PoseDifferences(7e-16, 1e-15, 1.2e-16, 0.0)
     assert str(errors) == "worst 0 mm, 0°; mean 0 mm, 0°"
     joint = replace(JOINT, angle=1e-16, shift=2e-15, zero_offset=-1.2e-16)
     assert str(joint) == "joint 3 (elbow): axes 0°, 0 mm apart at the arm, zero offset 0°"
     # A difference that can be measured is one, however small.
-    assert str(PoseErrors(1e-9, 0, 1e-9, 0)).startswith("worst 1e-06 mm, 5.73e-08°")
+    assert str(PoseDifferences(1e-9, 0, 1e-9, 0)).startswith("worst 1e-06 mm, 5.73e-08°")
 
 
 def test_a_comparison_ends_with_its_outcome_behind_errors_other_explanations_and_what_differs():

@@ -70,8 +70,8 @@ def test_a_wrong_zero_beside_a_calibration_is_named_and_not_the_axes_behind_it(k
     assert zero == pytest.approx(way * np.radians(5.0), abs=np.radians(0.05))
     # What is left is of the calibration's size: no axis is further off than without a wrong zero.
     assert [joint.number for joint in result.differing] == [2, 3, 4, 5, 6]
-    assert max(joint.angle for joint in result.joints) < np.radians(0.37)
-    assert max(joint.shift for joint in result.joints) < 1.3e-3
+    assert max(joint.angle or 0.0 for joint in result.joints) < np.radians(0.37)
+    assert max(joint.shift or 0.0 for joint in result.joints) < 1.3e-3
     assert result.base == pytest.approx(np.eye(4))
 
 
@@ -81,6 +81,7 @@ def test_two_arms_are_not_aligned_where_the_poses_that_are_told_get_worse(swappe
     if swapped:
         pair.reverse()
     result = pk.compare(*pair)
+    assert result.before and result.after
     assert result.after.worst_position <= result.before.worst_position
     assert result.after.mean_position <= result.before.mean_position
     assert result.aligned_to == "nothing"

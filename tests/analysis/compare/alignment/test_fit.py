@@ -38,10 +38,11 @@ def moved(at, xi, change):
 def test_the_derivatives_are_those_of_the_residuals(hinge):
     pair, at, free, used = near(0, 4)
     pair, h = replace(pair, suspect_joint=hinge), 1e-6
-    J = _linearised(pair, at, free, used).J
+    shares = used.astype(float)
+    J = _linearised(pair, at, free, shares).J
     for c, xi in enumerate(np.eye(11)):
         ahead, back = (
-            _linearised(pair, moved(at, t * xi[:6], t * xi[6:] * free), free, used).r
+            _linearised(pair, moved(at, t * xi[:6], t * xi[6:] * free), free, shares).r
             for t in (h, -h)
         )
         # 1e5 tolerances a metre or radian: of central differences they leave h^2 and, by rounding,
