@@ -12,7 +12,8 @@ VENV := .venv$(OF_PYTHON)$(OF_VERSIONS)
 # JAX and Robotics Toolbox, which poekin is measured against, need NumPy 2.
 EXTRAS := $(if $(filter -lowest,$(OF_VERSIONS)),dev,dev,peers)
 PY := $(VENV)/bin/python
-PIP := $(PY) -m pip install -qq --disable-pip-version-check -c $(CONSTRAINTS)
+# What is imported is compiled then: to compile all of it here would take a third of the set-up.
+PIP := $(PY) -m pip install -qq --disable-pip-version-check --no-compile -c $(CONSTRAINTS)
 SHELL := /bin/bash
 RECENT := 'import sys; sys.exit(sys.version_info < (3, 11))'
 USABLE := 'import sys, pip; sys.exit(sys.version_info < (3, 11))'
