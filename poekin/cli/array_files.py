@@ -33,6 +33,16 @@ def called(given: str) -> str:
     return path_text(given)
 
 
+def to_open(given: str, what: str = "--input") -> str | int:
+    """File as `open` takes it: its path, or the number of standard input, which is then taken for
+    this argument. Raises: as `take_stdin`.
+    """
+    if given not in STDIN:
+        return given
+    take_stdin(what)
+    return sys.stdin.fileno()
+
+
 def read_configurations(
     given: str,
     columns: csv_rows.Columns,
@@ -65,8 +75,6 @@ def read_rows(
     Parameters: given and errors as in `read_configurations`; columns; tail, last axes that an array
     may have instead of (k,).
     """
-    if given in STDIN:
-        take_stdin("--input")
     try:
         if Path(given).suffix.lower() == ".npy":
             count = len(columns.names)
@@ -98,10 +106,7 @@ def _from_csv(
     columns: csv_rows.Columns,
     progress: csv_rows.Progress,
 ) -> Rows:
-    file: str | int = given
-    if given in STDIN:
-        file = sys.stdin.fileno()
-    with csv_rows.opened(file, called(given)) as (stream, where, size):
+    with csv_rows.opened(to_open(given), called(given)) as (stream, where, size):
         return csv_rows.read(stream, columns, where, progress, size)
 
 

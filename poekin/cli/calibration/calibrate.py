@@ -40,7 +40,10 @@ KIND = (
 PARAMETERS = "What may change: some of screws,home,offsets,gains,pitch."
 Data = Annotated[
     list[str],
-    Argument(metavar="DATA.csv...", help="Readings and measurements, one set a file."),
+    Argument(
+        metavar="DATA.csv...",
+        help="Readings and measurements, one set a file; - is standard input.",
+    ),
 ]
 Kind = Annotated[Texts, Option("--kind", help=KIND)]
 Point = Annotated[

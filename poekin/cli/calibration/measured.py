@@ -14,7 +14,9 @@ from ...model.chain import Chain
 from ...solve.calibration.measurements import data
 from ...solve.calibration.measurements.header import SI, Convention
 from ...solve.calibration.measurements.measurement import Measurement
+from ..array_files import to_open
 from ..kinematics import poses
+from ..model import STANDARD_INPUT, STDIN
 from ..output import Progress, path_text
 
 
@@ -59,11 +61,13 @@ def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Mea
         )
     tables = []
     for path, kind in zip(paths, kinds, strict=True):
-        with Progress(f"reading {path_text(path)}") as progress:
+        place = STANDARD_INPUT if path in STDIN else ""
+        with Progress(f"reading {place or path_text(path)}") as progress:
             tables.append(
                 data.read_table(
-                    path,
+                    to_open(path, "measurements"),
                     chain,
+                    place,
                     kind=kind,
                     ignore=options.ignore,
                     progress=progress,

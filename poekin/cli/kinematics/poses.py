@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
@@ -128,10 +127,7 @@ def _read_file(given: str, chosen: PoseLayout, units: SaidUnits) -> Array:
 
 
 def _read_text_file(given: str, chosen: PoseLayout, units: SaidUnits, place: str) -> Array:
-    file: str | int = given
-    if given in array_files.STDIN:
-        array_files.take_stdin("--input")
-        file = sys.stdin.fileno()
+    file = array_files.to_open(given)
     with Progress(f"reading {place}") as progress:
         return read_file(file, chosen, units.said(), place, progress)
 

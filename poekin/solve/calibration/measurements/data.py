@@ -136,8 +136,9 @@ def read(
 
 
 def read_table(
-    path: Path,
+    path: Path | int,
     chain: Chain,
+    where: str = "",
     *,
     kind: MeasurementKind | None = None,
     ignore: Iterable[str] = (),
@@ -145,7 +146,8 @@ def read_table(
     convention: Convention = SI,
 ) -> MeasurementTable:
     """The numbers of a file of measurements, before anything is made of them; the file is read
-    once, so it may be a pipe. Parameters and errors: those of `read`.
+    once, so it may be a pipe, or the number of an open one. Parameters and errors: those of `read`;
+    where, what messages call the file (default: its path).
     """
     if kind is not None:
         choice(kind, KINDS, "kind")
@@ -164,7 +166,7 @@ def read_table(
             raise InputError(f"{here}: {those}, and kind is {safe_repr(kind)}")
         return header.indices
 
-    with csv_rows.opened(path) as (stream, where, size):
+    with csv_rows.opened(path, where) as (stream, where, size):
         rows, lines = csv_rows.read_chosen(stream, choose, where, progress, size)
     names = header.names
     for i, k in np.argwhere(~np.isfinite(rows)):
