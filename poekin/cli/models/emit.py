@@ -48,7 +48,10 @@ Frame = Annotated[str, Option("--frame", help=FRAME_HELP)]
 Single = Annotated[bool, Option("--float/--double", help="C only: the type of its numbers.")]
 Name = Annotated[
     str | None,
-    Option("--name", help="What names begin with (default: the robot's name)."),
+    Option(
+        "--name",
+        help="What names of files, and in C of functions, begin with (default: the robot's name).",
+    ),
 ]
 Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
 Idealise = Annotated[
@@ -88,7 +91,13 @@ def command(
     if name is None:
         name = robot.name
     texts = _texts(chain, language, parse_frame(frame, FRAMES), name, single, origin)
-    if output.suffix in ENDINGS[language]:
+    ending = output.suffix.lower()
+    if ending in {".c", ".h"}.union(*ENDINGS.values()).difference(ENDINGS[language]):
+        expected = " or ".join(("a directory", *(f"a {e} file" for e in ENDINGS[language])))
+        raise InputError(
+            f"--output: {expected} expected with --lang {language}, got {path_text(output)}"
+        )
+    if ending in ENDINGS[language]:
         places = dict.fromkeys([output], *texts.values())
         directory = output.parent
     else:

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from typer import Option
 
-from ...errors import quote
+from ...errors import FileError, quote
 from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import to_urdf
 from ...model.chain import Chain
@@ -43,6 +43,11 @@ def command(
     """URDF of the whole tree, or with --tip or --base of one chain; kinematics only, no meshes or
     masses. With --into, a URDF that is there, edited.
     """
+    if output is not None and output.suffix.lower() in (".gz", ".zip"):
+        raise FileError(
+            f"cannot write {path_text(output)}: the text is not compressed; without --output it goes "
+            "into a pipe (| gzip > FILE)"
+        )
     array_files.check_apart([output], model=file, URDF=into)
     robot = model(file)
     written: Robot | Chain = robot

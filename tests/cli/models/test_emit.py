@@ -97,11 +97,11 @@ def test_python_goes_to_a_file_or_into_a_directory(poekin, tmp_path, place):
     )
 
 
-@pytest.mark.parametrize("place", ["arm.js", "arm.mjs", "somewhere"])
+@pytest.mark.parametrize("place", ["arm.js", "arm.MJS", "some.where"])
 def test_javascript_goes_to_a_file_or_into_a_directory(poekin, tmp_path, place):
     words = ("--lang", "javascript", "--frame", "2", "--output", tmp_path / place)
     assert poekin(*PANDA, *words)[0] == 0
-    path = tmp_path / place if "." in place else tmp_path / place / "panda.js"
+    path = tmp_path / place if "arm" in place else tmp_path / place / "panda.js"
     chain = pk.load("panda").chain(tip="panda_hand")
     text = emit.javascript(chain, 2, origin="the robot panda")
     assert path.read_text(encoding="ascii") == text
@@ -159,6 +159,23 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
 )
 def test_what_cannot_be_is_refused_and_nothing_is_written(refused, tmp_path, words, message):
     assert message in refused(*PANDA, *words, "--output", tmp_path / "made")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("language", "place", "expected"),
+    [
+        ("c", "arm.c", "a directory expected with --lang c, got "),
+        ("c", "arm.h", "a directory expected with --lang c, got "),
+        ("python", "arm.MJS", "a directory or a .py file expected with --lang python, got "),
+        ("javascript", "arm.py", "a directory or a .js file or a .mjs file expected with --lang "),
+    ],
+)
+def test_a_file_of_another_language_is_refused_and_no_directory_made(
+    refused, tmp_path, language, place, expected
+):
+    said = refused(*PANDA, "--lang", language, "--output", tmp_path / place)
+    assert said.startswith(f"poekin: error: --output: {expected}")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -67,12 +67,19 @@ def test_a_file_is_written_whole(crane, poekin, tmp_path):
             "cannot write 'nowhere/out.urdf': No such file or directory",
         ),
         (["--output", "/"], "cannot write '/'"),
+        (["--output", "out.urdf.gz"], "cannot write 'out.urdf.gz': the text is not compressed"),
+        (["--output", "out.ZIP"], "without --output it goes into a pipe (| gzip > FILE)"),
         (["--tip", "hok"], "did you mean 'hook'?"),
         (["--base", "a"], "'hook', 'lamp'"),
     ],
 )
-def test_a_bad_command_line_is_one_message(crane, refused, words, message):
+def test_a_bad_command_line_is_one_message_and_no_file(
+    crane, refused, words, message, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    before = list(tmp_path.iterdir())
     assert message in refused("urdf", crane, *words)
+    assert list(tmp_path.iterdir()) == before
 
 
 def test_what_cannot_be_written_leaves_the_file_that_was_there(tmp_path, refused, crane):
