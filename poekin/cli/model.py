@@ -128,7 +128,7 @@ def arm_calibration(path: str) -> FactoryCalibration | None:
 
 
 def _is_vendors(path: str) -> bool:
-    return path.lower().endswith(vendors.yaml_io.ENDINGS)
+    return path.lower().endswith(vendors.yaml_io.ENDINGS) and not compressed.split(path)[1]
 
 
 def called(file: str) -> str:
@@ -204,30 +204,25 @@ def _check_no_option(words: Sequence[str], options: Iterable[str]) -> None:
 
 
 def takes_models(command: Callable[..., None]) -> Callable[..., None]:
-    """Command with the options --xacro, --xacro-arg, --coupling and --arm, which `model` obeys while
-    it runs. Messages about a parameter that is an option speak of the option.
+    """Command with the options of `_run_of`, which `model` obeys while it runs. Messages about a
+    parameter that is an option speak of the option.
     """
+    own = inspect.signature(command, eval_str=True).parameters
+    more = inspect.signature(_run_of, eval_str=True).parameters
+    every = [*own.values(), *more.values()]
+    named = dict(_option_names(every))
 
     @functools.wraps(command)
-    def run(
-        *args: Any,
-        xacro: bool = False,
-        xacro_arg: Sequence[str] | None = None,
-        coupling: Sequence[str] | None = None,
-        arm: str | None = None,
-        **options: Any,
-    ) -> None:
-        if xacro_arg and not xacro:
-            raise InputError("--xacro-arg: expected together with --xacro only")
-        values = None
-        if xacro:
-            values = dict(map(_pair, xacro_arg or ()))
-        if arm is not None and not any(map(_is_vendors, map(str, (*args, *options.values())))):
-            raise InputError("--arm: expected with a vendor's .yaml file, which holds several arms")
+    def run(**options: Any) -> None:
+        record = _run_of(**{name: options.pop(name) for name in more if name in options})
+        if record.arm is not None and not any(map(_is_vendors, map(str, options.values()))):
+            raise InputError(
+                "--arm: expected with a vendor's .yaml file, not compressed, which holds several arms"
+            )
         _check_no_option(options.get("q") or options.get("words") or (), named.values())
-        before = _current.set(_Run(values, coupling or (), arm))
+        before = _current.set(record)
         try:
-            command(*args, **options)
+            command(**options)
         except (InputError, UnknownName) as fault:  # of the library, about a parameter of its own
             parameter, colon, rest = str(fault).partition(": ")
             raise type(fault)(named.get(parameter, parameter) + colon + rest) from fault
@@ -235,28 +230,22 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
             _current.reset(before)
 
     # Typer makes the options out of the signature and the annotations.
-    own = inspect.signature(command, eval_str=True)
-    more = [
-        inspect.Parameter(
-            name,
-            inspect.Parameter.KEYWORD_ONLY,
-            default=default,
-            annotation=annotation,
-        )
-        for name, default, annotation in (
-            ("xacro", False, Xacro),
-            ("xacro_arg", None, Given),
-            ("coupling", None, Coupling),
-            ("arm", None, NamedArm),
-        )
-    ]
-    whole = own.replace(parameters=[*own.parameters.values(), *more])
-    named = dict(_option_names(whole.parameters.values()))
-    vars(run)["__signature__"] = whole
-    run.__annotations__ = {
-        parameter.name: parameter.annotation for parameter in whole.parameters.values()
-    }
+    vars(run)["__signature__"] = inspect.Signature(every)
+    run.__annotations__ = {parameter.name: parameter.annotation for parameter in every}
     return run
+
+
+def _run_of(
+    xacro: Xacro = False,
+    xacro_arg: Given = None,
+    coupling: Coupling = None,
+    arm: NamedArm = None,
+) -> _Run:
+    """Run with these options. Raises: InputError."""
+    if xacro_arg and not xacro:
+        raise InputError("--xacro-arg: expected together with --xacro only")
+    arguments = dict(map(_pair, xacro_arg or ())) if xacro else None
+    return _Run(arguments, coupling or (), arm)
 
 
 def _option_names(parameters: Iterable[inspect.Parameter]) -> Iterator[tuple[str, str]]:

@@ -109,7 +109,8 @@ def read_text(
         if "xacro" in element.tag:
             what = f"<xacro:{Fields(element, source).tag}> is xacro that was not processed yet, which may hold joints"
             raise ModelError(
-                f"{source.place(element.sourceline)}: {what}: pk.xacro(path) evaluates it, and --xacro"
+                f"{source.place(element.sourceline)}: {what}: pk.xacro(path) evaluates it, and --xacro, "
+                "in a file that is not compressed"
             )
     links = top.all("link")
     if not links:

@@ -173,6 +173,20 @@ def test_standard_input_is_one_argument_only(case, stdin, refused, crane, tmp_pa
     assert not (tmp_path / "out.csv").exists()
 
 
+@pytest.mark.parametrize("name", ["-", "/dev/stdin"])
+def test_measurements_on_standard_input_are_those_of_the_file(
+    name, words, stdin, poekin, refused, crane
+):
+    readings, *rest = words("calibrate")
+    expected = poekin("calibrate", crane, readings, *rest)
+    assert expected[0] == 0
+    content = Path(readings).read_text(encoding="utf-8")
+    stdin(content)
+    assert poekin("calibrate", crane, name, *rest) == expected
+    stdin(content.replace("slide,", "glide,", 1))
+    assert refused("calibrate", crane, name, *rest).startswith("poekin: error: standard input:1: ")
+
+
 def test_validate_takes_standard_input_once(stdin, poekin, crane):
     stdin(Path(crane).read_bytes())
     code, _, err = poekin("validate", "-", "/dev/stdin", "--samples", 2)
@@ -258,6 +272,8 @@ def test_xacro_in_a_pipe_is_refused_with_the_cure(stdin, refused, poekin, crane)
         "poekin: error: --xacro: what is included is looked for from the file, and a pipe is none: give"
         " the file, or evaluate it before the pipe (xacro FILE | poekin ... -)\n"
     )
+    stdin(gzip.compress(BAD["xacro"][0]))
+    assert "--xacro, in a file that is not compressed" in refused("info", "-", "--xacro")
     stdin(Path(crane).read_bytes())  # evaluated already
     assert poekin("info", "-", "--xacro")[0] == 0
 

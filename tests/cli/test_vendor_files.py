@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import zipfile
+
 import pytest
 
 import poekin as pk
@@ -98,6 +100,7 @@ def test_an_arm_of_a_file_that_holds_several_is_a_model_and_a_calibration(poekin
         ),
         (["info", "two.yaml", "--arm", "ARM_3"], "and got 'ARM_3'"),
         (["info", "ur5e", "--arm", "ARM_1"], "--arm: expected with a vendor's .yaml file"),
+        (["info", "two.zip/two.yaml", "--arm", "ARM_1"], "a vendor's .yaml file, not compressed"),
         (["apply", "ur5e", "two.yaml", "-o", "out.urdf"], "and none was named"),
     ],
     ids=lambda x: " ".join(x) if isinstance(x, list) else "",
@@ -107,5 +110,7 @@ def test_an_arm_that_is_not_named_or_not_there_is_refused(
 ):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "two.yaml").write_text(TWO_ARMS, encoding="utf-8")
+    with zipfile.ZipFile("two.zip", "w") as archive:
+        archive.write("two.yaml")
     assert message in refused(*words)
-    assert [path.name for path in tmp_path.iterdir()] == ["two.yaml"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["two.yaml", "two.zip"]

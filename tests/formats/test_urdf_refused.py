@@ -142,7 +142,7 @@ REFUSED = {
         '<robot xmlns:x="http://www.ros.org/wiki/xacro">\n<link name="a"/>\n<x:arm prefix="left"/></robot>',
         (
             r"^x\.urdf:3: <xacro:arm> is xacro that was not processed yet, which may hold joints: "
-            r"pk\.xacro\(path\) evaluates it, and --xacro$"
+            r"pk\.xacro\(path\) evaluates it, and --xacro, in a file that is not compressed$"
         ),
     ),
     "a nameless link": (
