@@ -72,15 +72,14 @@ def to_urdf(
         Name of the robot; by default its own, BASE_to_TIP for a chain. Not with `into`.
     into : str or os.PathLike or bytes or Robot, optional
         Path of a URDF, also as .gz or in a .zip, its content, or a robot that was read from it: the
-        text to be edited. A
-        `Robot` must have its links and joints; a `Chain` is put between the links that its base and
-        tip are called, as by `relinked`. The file itself stays as it is.
+        text to be edited. A `Robot` must have its links and joints; a `Chain` is put between the
+        links that its base and tip are called, as by `relinked`. The file itself stays as it is.
 
     Returns
     -------
     text : str or bytes
         Indented XML, the same for equal models, without any path; encode it as UTF-8. With `into`,
-        the content of the edited file, bytes in its own encoding.
+        the content of the edited file, not compressed, bytes in its own encoding.
 
     Raises
     ------
@@ -99,7 +98,7 @@ def to_urdf(
     PoekinWarning
         If the coordinates of the written robot are not those of the chain: another scale or order,
         or one left out because no joint follows it; or if its readings are coupled, which a URDF
-        cannot say. With `into`, as `relinked`, where a tool link is added.
+        cannot say. With `into`, as `relinked`, where a tool link is added or moved.
 
     Notes
     -----

@@ -54,8 +54,8 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
     FileError
         If the file cannot be read, or the package of its name is nowhere.
     ModelError
-        If xacro refuses the file, with its own words, if it is compressed, or the result cannot be understood as URDF;
-        lines are then those of the evaluated text.
+        If xacro refuses the file, with its own words, if it is compressed, or the result cannot be
+        understood as URDF; lines are then those of the evaluated text.
     InputError
         If an argument is no text, number or truth value.
     MissingExtra

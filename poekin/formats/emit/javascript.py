@@ -40,8 +40,8 @@ def javascript(
         ASCII, a module of ECMAScript 2015 that exports fk(q), jacobian_FRAME(q) and
         fk_jacobian_FRAME(q) of an array q, rad or m: T row by row (16) and J row by row (6 m) as
         Float64Array, the last one both as {T, J}. Arrays for the results may be given behind q;
-        each function also as ..._angles(q) and ..._sincos(s, c, q), for who has sines and cosines
-        of the angles.
+        each function also as ..._angles(q) and ..._sincos(s, c, q), where the sines and cosines of
+        the angles are known.
 
     Raises
     ------

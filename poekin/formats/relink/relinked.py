@@ -74,8 +74,8 @@ def relinked(
     Warns
     -----
     PoekinWarning
-        If a tool link is added or moved, with its name; if the chain's readings are coupled and the robot's
-        are not.
+        If a tool link is added or moved, with its name; if the chain's readings are coupled and the
+        robot's are not.
 
     Notes
     -----
@@ -187,16 +187,16 @@ def _tool(robot: Robot, last: Joint, origin: Array) -> Joint:
     """The fixed joint that holds the chain's tip, off the axis of the last joint. Warns of it."""
     link = f"{last.child}_tool"
     name = f"{link}_joint"
-    new = ""
+    new, moved = "", " already, and moved there"
     held = {(j.name, j.kind, j.parent, j.child) for j in robot.joints if j.child in robot.leaves}
     if (name, "fixed", last.child, link) not in held:  # by an earlier chain
         link = free_name(link, set(robot.links))
         name = free_name(f"{link}_joint", {joint.name for joint in robot.joints})
-        new = "new "
+        new, moved = "new ", ""
     warn(
         f"link {quote(last.child)} stays on the axis of joint {quote(last.name)}, and the chain's tip is"
         f" {np.linalg.norm(origin[:3, 3]) * 1e3:.3g} mm and"
         f" {math.degrees(np.linalg.norm(so3.log(origin[:3, :3]))):.3g}° from it: the tip is the {new}link"
-        f" {quote(link)}, fixed to it"
+        f" {quote(link)}, fixed to it{moved}"
     )
     return Joint(name, "fixed", last.child, link, origin)

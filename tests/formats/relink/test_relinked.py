@@ -471,7 +471,9 @@ def test_a_chain_put_on_again_moves_the_tool_link_that_is_there():
     further = chain.retooled(pk.se3.exp([0, 0.1, 0, 0.01, 0, 0]))
     with pytest.warns(PoekinWarning, match=f"the tip is the new link '{tip}_tool'"):
         once = relinked(robot, chain, tip=tip)
-    with pytest.warns(PoekinWarning, match=f"the tip is the link '{tip}_tool'"):
+    with pytest.warns(
+        PoekinWarning, match=f"the tip is the link '{tip}_tool', fixed to it already, and moved"
+    ):
         twice = relinked(once, further, tip=tip)
     assert (twice.links, len(twice.joints)) == (once.links, len(once.joints))
     q = np.full(6, 0.3)
