@@ -7,13 +7,13 @@ import hashlib
 import inspect
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
 
-from typer import Option
+from typer import Context, Option
 
 from ..errors import FileError, InputError, UnknownName, quote, suggest
 from ..formats import vendors
@@ -60,13 +60,15 @@ class _Run:
     """Run of a command.
 
     Fields: arguments, the values of --xacro-arg, None without --xacro; coupling, those of
-    --coupling; arm, that of --arm; stdin, what standard input was read for; digests, the SHA-256 of
-    what came through a pipe, which can be read once only, by the name of the argument.
+    --coupling; arm, that of --arm; options, what parameters that are options are called; stdin,
+    what standard input was read for; digests, the SHA-256 of what came through a pipe, which can be
+    read once only, by the name of the argument.
     """
 
     arguments: dict[str, str] | None = None
     coupling: Sequence[str] = ()
     arm: str | None = None
+    options: Mapping[str, str] = field(default_factory=dict)
     stdin: str = ""
     digests: dict[str, str] = field(default_factory=dict)
 
@@ -210,11 +212,11 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
     own = inspect.signature(command, eval_str=True).parameters
     more = inspect.signature(_run_of, eval_str=True).parameters
     every = [*own.values(), *more.values()]
-    named = dict(_option_names(every))
 
     @functools.wraps(command)
     def run(**options: Any) -> None:
-        record = _run_of(**{name: options.pop(name) for name in more if name in options})
+        record = _run_of(**{name: options.pop(name) for name in more})
+        named = record.options
         if record.arm is not None and not any(map(_is_vendors, map(str, options.values()))):
             raise InputError(
                 "--arm: expected with a vendor's .yaml file, not compressed, which holds several arms"
@@ -236,6 +238,8 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
 
 
 def _run_of(
+    *,
+    context: Context,
     xacro: Xacro = False,
     xacro_arg: Given = None,
     coupling: Coupling = None,
@@ -245,17 +249,8 @@ def _run_of(
     if xacro_arg and not xacro:
         raise InputError("--xacro-arg: expected together with --xacro only")
     arguments = dict(map(_pair, xacro_arg or ())) if xacro else None
-    return _Run(arguments, coupling or (), arm)
-
-
-def _option_names(parameters: Iterable[inspect.Parameter]) -> Iterator[tuple[str, str]]:
-    """Parameters of a command that are options, and what these are called."""
-    for parameter in parameters:
-        about = parameter.annotation.__metadata__[0]
-        # typer takes the first name for a default, until it looks where it stands
-        for declared in (about.default, *(about.param_decls or ())):
-            if str(declared).startswith("--"):
-                yield parameter.name, declared.partition("/")[0]
+    words = {p.name: p.opts[-1] for p in context.command.params if p.opts[-1].startswith("--")}
+    return _Run(arguments, coupling or (), arm, words)
 
 
 def _pair(text: str) -> tuple[str, str]:
