@@ -77,7 +77,8 @@ def _joint_units(fast: CompiledChain, locked: bool) -> JointUnits:
     C = chain.coupling
     if not locked and _sums_imply_limits(chain):
         limits = own_limits(chain) - chain.offset[:, None]
-        own = chain.replace(coupling=None, limits=limits, joint_limits=None)
+        names = chain.joint_names
+        own = chain.replace(coupling=None, q_names=names, limits=limits, joint_limits=None)
         return JointUnits(own.compile(), C)
     scale = np.array([dominant_ratio(chain, k) for k in range(chain.dof)])
     if (scale == 1.0).all():

@@ -14,7 +14,8 @@ SAID = {
     "Fanuc": "J3 = J2 + J3",
     "differential wrist": ["J5 = 1/2 J5 + 1/2 J6", "J6 = 1/2 J5 - 1/2 J6"],
 }
-LOWER, UPPER = ARM.limits.T
+LOWER_UPPER = ARM.limits
+LOWER, UPPER = LOWER_UPPER.T
 
 
 @pytest.fixture(scope="module", params=SAID)
@@ -91,6 +92,79 @@ def test_a_pose_beyond_a_joint_s_own_limits_is_refused_for_them():
     assert not pk.ik(chain, beyond, lock={"b": 1.0}).success
     assert len(pk.ik_all(chain, beyond).solutions) == 0
     assert pk.ik(chain, beyond, limits=False).success
+
+
+def unbounded(chain, names):
+    """The arm with these names of readings, and limits of the joints alone."""
+    wide = [[-np.inf, np.inf]] * chain.dof
+    return chain.replace(q_names=names, limits=wide, joint_limits=LOWER_UPPER)
+
+
+@pytest.mark.parametrize("lock", [{}, {"m4": 0.1}], ids=["free", "locked"])
+def test_a_joint_whose_own_limits_forbid_a_pose_is_named(chain, lock):
+    x = np.array([0.2, 0.3, UPPER[2] + 0.1, 0.1, 0.2, 0.3])
+    arm = unbounded(chain, [f"m{k}" for k in range(1, 7)])
+    found = pk.ik(arm, ARM.fk(x), lock=lock)
+    assert found.reason == "limits"
+    assert "joint3" in found.limits_hit[0]
+    assert set(found.limits_hit[0]) < set(arm.joint_names)
+    assert "in the way are those of 'joint3'" in found.summary()
+
+
+def test_a_start_beyond_joints_own_limits_is_by_the_names_of_readings_and_warns_of_the_joints():
+    arm = unbounded(ARM.coupled("J3 = J2 + J3"), ["m1", "m3", "m2", "m4", "m5", "m6"])
+    q0 = dict.fromkeys(arm.q_names, 0.0) | {"m2": 9.0}  # the third column, of joint 3 alone
+    with pytest.warns(pk.PoekinWarning, match=r"limits of 'joint3' and is moved"):
+        assert pk.ik(arm, ARM.fk(np.full(6, 0.1)), q0=q0).success
+
+
+def narrow(chain, least, most):
+    """The arm with other limits of its third reading."""
+    limits = chain.limits.copy()
+    limits[2] = least, most
+    return chain.replace(limits=limits)
+
+
+def test_of_solutions_whole_turns_apart_those_within_all_limits_are_counted_and_none_is_lost():
+    turn = 2 * np.pi
+    wide = ARM.replace(limits=[[-turn, turn]] * 6)
+    chain = narrow(wide.coupled("J3 = J2 + J3"), -turn, turn)
+    T = wide.fk(wide.random(0))
+    of_joints = pk.ik_all(wide, T, method="search", all_revolutions=True).solutions
+    readings = of_joints @ np.linalg.inv(chain.coupling).T
+    within = (np.abs(readings[:, 2]) <= turn).sum()
+    every = pk.ik_all(chain, T, method="search", all_revolutions=True)
+    one_each = pk.ik_all(chain, T, method="search")
+    assert len(every.solutions) == one_each.n_revolutions.sum() == within < len(of_joints)
+    assert (every.n_revolutions == 1).all()
+
+    joint_limits = np.full((6, 2), [-np.inf, np.inf])
+    joint_limits[2] = 2.0, 6.0  # a turn of the third reading away for half of the solutions
+    chain = chain.replace(joint_limits=joint_limits)
+    found = pk.ik_all(chain, wide.fk([0.3, 2.5, 3.9, 0.2, 0.5, 0.1]), method="search")
+    assert len(found.solutions) == 8
+    x3 = found.solutions @ chain.coupling[2]
+    assert ((x3 >= 2.0) & (x3 <= 6.0)).all()
+
+
+def test_the_sentence_counts_no_solution_beyond_a_joint_s_own_limits():
+    chain = narrow(ARM.coupled("J3 = J2 + J3"), -2.0, 1.0)
+    for T in chain.fk(chain.random(3, 5)):
+        found = pk.ik_all(chain, T, method="search")
+        assert f"{len(found.solutions)} of them within the limits" in found.complete
+
+
+def test_a_path_ends_at_a_joint_s_own_limits_where_those_of_readings_are_narrower():
+    chain = narrow(ARM.coupled("J3 = J2 + J3"), -3.0, 1.5)
+    x0 = np.array([0.2, 0.5, -0.6, 0.1, 0.8, 0.3])
+    x = np.tile(x0, (60, 1))
+    x[:, 2] = np.linspace(-0.6, UPPER[2] + 0.3, 60)
+    path = pk.follow(chain, ARM.fk(x), q0=np.linalg.solve(chain.coupling, x0))
+    reached = x[:, 2] <= UPPER[2]
+    np.testing.assert_array_equal(path.success, reached)
+    assert own(chain, path.q).all()
+    assert (path.reason[~reached] == "limits").all()
+    assert (path.position_error[~reached] > 1e-4).all()
 
 
 def test_a_path_goes_to_the_joints_own_limits_and_no_farther(chain):

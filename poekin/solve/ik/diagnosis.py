@@ -14,6 +14,7 @@ from ...engine.kernels import ik_codes as codes
 from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.readings.coupled import beyond_own_limits
 from ..joint_units import bounds
 from .ik_problem import IKProblem
 from .joint_domain import JointDomain, free_ranges
@@ -82,8 +83,9 @@ def find_causes(
     A target that is solved within the limits after all, from other starts, gets that solution in q.
     """
     domain = problem.domain
+    chain = problem.fast.chain
     state = info[:, codes.AT_STATE]
-    beyond = distance_beyond_reach(problem.fast.chain, problem.task, targets, domain.limits)
+    beyond = distance_beyond_reach(chain, problem.task, targets, domain.limits)
     beyond[state == codes.BAD_TARGET] = 0.0
     reason = np.full(len(q), UNREACHABLE, dtype=KIND)
     reason[(state == codes.OUT_OF_ITERATIONS) & (beyond == 0)] = ITERATIONS
@@ -91,14 +93,15 @@ def find_causes(
     reason[success] = SOLVED
     hit: list[Names] = [()] * len(q)
     open_ones = np.flatnonzero(~success & (state != codes.BAD_TARGET) & (beyond == 0))
-    if not len(open_ones) or not np.isfinite(domain.limits).any():
+    limited = problem.has_joint_limits or np.isfinite(domain.limits).any()
+    if not len(open_ones) or not limited:
         return Causes(reason, beyond, tuple(hit))
     free, ends = problem.solve(
         targets[open_ones],
         open_ones.astype(float),
         domain.anywhere(len(open_ones)),
-        limits=bounds(problem.fast.chain, False),
-        ranges=free_ranges(problem.fast.chain),
+        limits=bounds(chain, False),
+        ranges=free_ranges(chain),
     )
     solved = ends[:, codes.AT_STATE] == codes.SOLVED
     for u, k in zip(free[solved], open_ones[solved], strict=True):
@@ -110,6 +113,9 @@ def find_causes(
         else:
             reason[k] = LIMITS
             hit[k] = limits_hit(domain, q[k], within, problem.fast.q_names)
+            if domain.contains(within):
+                joints = beyond_own_limits(chain, within)
+                hit[k] = tuple(itertools.compress(chain.joint_names, joints))
     return Causes(reason, beyond, tuple(hit))
 
 

@@ -76,7 +76,8 @@ class IKProblem:
 
     Attributes: settings; given, the user's chain; units; fast, the compiled chain in joint units;
     task; domain; underactuated, whether the task constrains more degrees of freedom than the arm
-    has; locked (m,), 1 where a coordinate keeps its value; options, as the kernels take them.
+    has; has_joint_limits, whether joints have limits that the domain does not say; locked (m,), 1
+    where a coordinate keeps its value; options, as the kernels take them.
     """
 
     def __init__(self, fast: CompiledChain, settings: Settings) -> None:
@@ -101,7 +102,8 @@ class IKProblem:
         )
         self._solve = ik_kernels.solve_many
         self._error_parts = ik_kernels.error_parts
-        self._joint_limits = settings.limits and np.isfinite(self.given.joint_limits).any()
+        own = self.fast.chain.joint_limits
+        self.has_joint_limits = bool(settings.limits and np.isfinite(own).any())
         self._address = self.fast.hybrid_address
         self._tolerances = np.array([settings.tol_position, settings.tol_rotation])
         self._rows = _rows(settings.restarts, settings.iterations)
@@ -128,19 +130,17 @@ class IKProblem:
         """
         errors = pose_errors(self.given, self.task, q, targets)
         within = errors <= self._tolerances
-        return errors, within[:, 0] & within[:, 1] & self.keeps_joints(q)
+        return errors, within[:, 0] & within[:, 1] & self.keeps_joints(self.units.of(q))
 
-    def keeps_joints(self, q: Array) -> np.ndarray:
-        """Whether joints are within their own limits (...), where these count, at the user's
-        coordinates.
-        """
-        if not self._joint_limits:
+    def keeps_joints(self, u: Array) -> np.ndarray:
+        """Whether joints are within their own limits (...), where the domain does not say them."""
+        if not self.has_joint_limits:
             return np.array(True)
-        return np.asarray(~beyond_own_limits(self.given, q).any(axis=-1))
+        return np.asarray(~beyond_own_limits(self.fast.chain, u).any(axis=-1))
 
     def contains(self, u: Array) -> np.ndarray:
         """Whether configurations (..., m) are within the limits (...), the joints' own too."""
-        return self.domain.contains(u) & self.keeps_joints(self.coordinates(u))
+        return self.domain.contains(u) & self.keeps_joints(u)
 
     def error(self, T: Array, target: Array, J: Array) -> Array:
         """Error (6,), rotation first, between two poses; J loses what the task leaves free."""
@@ -164,10 +164,9 @@ class IKProblem:
         anywhere. Options: restarts, limits, ranges.
         """
         q, info = self._solved(targets, indices, q0, **options)
-        checked = self._joint_limits and options.get("limits") is None
+        checked = self.has_joint_limits and options.get("limits") is None
         for turn in range(1, AGAIN if checked else 1):
-            beyond = info[:, codes.AT_STATE] == codes.SOLVED
-            beyond = beyond & ~self.keeps_joints(self.coordinates(q))
+            beyond = (info[:, codes.AT_STATE] == codes.SOLVED) & ~self.keeps_joints(q)
             if not beyond.any():
                 break
             other = indices[beyond] + turn * APART

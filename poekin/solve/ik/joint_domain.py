@@ -109,18 +109,18 @@ def free_ranges(chain: Chain) -> Array:
 
 
 def first_tries(
+    chain: Chain,
     units: JointUnits,
     domain: JointDomain,
     batch: tuple[int, ...],
     count: int,
     q0: Any,
 ) -> Array:
-    """Start of the first try of each of `count` targets (N, m), in joint units: q0 within the
-    limits, NaN for anywhere.
+    """Start of the first try of each of `count` targets (N, m), in joint units of a chain: q0
+    within the limits, NaN for anywhere.
 
     Raises: InputError, ShapeError, UnknownName. Warns where q0 is moved.
     """
-    chain = units.fast.chain
     if q0 is None:
         return domain.anywhere(count)
     given = units.of(for_targets(chain, batch, count, q0, "q0"))
@@ -128,7 +128,7 @@ def first_tries(
     first = np.minimum(np.maximum(given, low), high)  # np.clip takes thrice as long
     moved = ((first != given) & ~domain.locked).any(axis=0)
     if moved.any():
-        names = join_names(np.array(chain.q_names)[moved])
+        names = join_names(np.array(units.fast.q_names)[moved])
         warn(f"q0 is outside the limits of {names} and is moved to them")
     return domain.held(first)
 

@@ -55,8 +55,8 @@ class Solution(Result):
     distance_beyond_reach : (...) ndarray
         Distance of the target beyond the arm's reach, m; 0 within it.
     limits_hit : tuple of tuple of str
-        Names of the coordinates whose limits are in the way, for each target of the batch in C
-        order; empty where all are solved.
+        Names of the coordinates whose limits are in the way, or of the joints whose own are, for
+        each target of the batch in C order; empty where all are solved.
     reachable_tasks : tuple of tuple of str
         Tasks that reach the target of an arm with too few coordinates for the one asked, for each
         target in C order; empty where it has enough, or all are solved.
@@ -117,8 +117,8 @@ class Solution(Result):
     def _cause(self, reason: str, index: tuple[int, ...], flat: int) -> str:
         beyond = self.distance_beyond_reach[index]
         if reason == LIMITS:
-            names = ", ".join(map(quote, self.limits_hit[flat])) or "joints"
-            return f"solvable without them, in the way are those of {names}; within them "
+            names = ", ".join(map(quote, self.limits_hit[flat]))
+            return f"solvable without them, in the way are those of {names}; "
         if reason == ITERATIONS:
             return "the nearest try was still moving when they ended; "
         if beyond > FAR:

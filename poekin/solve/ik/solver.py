@@ -38,7 +38,7 @@ def solve(
     if q0 is None and nearest_to is None:
         first = problem.domain.middle(count)
     else:
-        first = first_tries(problem.units, problem.domain, batch, count, q0)
+        first = first_tries(problem.given, problem.units, problem.domain, batch, count, q0)
     near = None
     if nearest_to is not None:
         near = for_targets(problem.given, batch, count, nearest_to, "nearest_to")

@@ -134,8 +134,6 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     places = _places(fast.chain, every, limits, all_revolutions)
     q = units.coordinates(places.q, bounds(given, limits))
     order = _order(q * joint_ratios(given), places.owner)
-    if limits:
-        order = order[~beyond_own_limits(given, q[order]).any(axis=1)]
     places = _Places(q[order], places.owner[order], places.number[order], places.within)
     closed = None if solver is None else solver.said()
     complete = [
@@ -266,14 +264,15 @@ def _places(
     owner = owner[kept]
     first = first[kept]
     last = last[kept]
-    within = np.bincount(owner, minlength=len(found))
-    nearest = np.clip(0.0, first, last)
+    turns = np.clip(0.0, first, last)
     bounded = np.isfinite(first) & np.isfinite(last)
-    first = np.where(bounded, first, nearest)
-    last = np.where(bounded, last, nearest)
+    first = np.where(bounded, first, turns)
+    last = np.where(bounded, last, turns)
     with np.errstate(over="ignore"):
         number = (last - first + 1).prod(axis=1)
-    if all_revolutions:
+    row = np.arange(len(Q))
+    by_joints = limits and np.isfinite(chain.joint_limits).any()
+    if all_revolutions or by_joints:
         places = np.bincount(owner, number, minlength=1)
         most = places.max(initial=0)
         if most > MOST:
@@ -281,16 +280,23 @@ def _places(
                 f"all_revolutions: {most:.0f} places for one target, more than {MOST}; "
                 "`n_revolutions` of the result tells"
             )
-        nearest = _turns_between(first, last)
-        each = number.astype(int)
-        Q = np.repeat(Q, each, axis=0)
-        owner = np.repeat(owner, each)
-        number = np.ones(len(Q))
-    counts = np.array([int(min(n, _MANY)) for n in number], np.int64)
+        turns = _turns_between(first, last)
+        row = np.repeat(row, number.astype(int))
     low, high = bounds(chain, limits).T
-    turned = Q + periods(chain) * nearest
-    q = np.clip(turned, low, high) + 0.0
-    return _Places(q, owner, counts, within)
+    q = np.clip(Q[row] + periods(chain) * turns, low, high) + 0.0
+    if by_joints:
+        kept = np.flatnonzero(~beyond_own_limits(chain, q).any(axis=1))
+        number = np.bincount(row[kept], minlength=len(Q))
+        if not all_revolutions:
+            kept = kept[np.argsort(np.abs(turns[kept]).sum(axis=1), kind="stable")]
+            kept = kept[np.unique(row[kept], return_index=True)[1]]
+        q = q[kept]
+        row = row[kept]
+    within = np.bincount(owner[np.unique(row)], minlength=len(found))
+    if all_revolutions:
+        number = np.ones(len(Q))
+    counts = np.array([int(min(n, _MANY)) for n in number[row]], np.int64)
+    return _Places(q, owner[row], counts, within)
 
 
 def _turns_between(first: Array, last: Array) -> Array:

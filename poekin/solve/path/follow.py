@@ -143,7 +143,7 @@ def follow(  # noqa: PLR0913 - options by keyword
     when, limit_v, limit_a = _timing(times, speed, acceleration, given, len(path))
     start = None
     if q0 is not None:
-        start = first_tries(problem.units, problem.domain, (), 1, q0)[0]
+        start = first_tries(given, problem.units, problem.domain, (), 1, q0)[0]
     finite = np.asarray(np.isfinite(path).all(axis=(1, 2)))
     follower = Follower(problem, path[finite], most, progress)
     joints, broken = follower.run(start)

@@ -196,6 +196,8 @@ class Follower:
             q,
             np.empty((count, codes.INFO)),
         )
+        beyond = np.flatnonzero(~self.problem.keeps_joints(q[:done]))
+        done = min([done, *beyond.tolist()])
         if done and anywhere:
             done += self._descend(targets[1:], q[0], q[1:])
         return done
@@ -240,12 +242,15 @@ class Follower:
         return self._towards(self.targets[k], last)[None]
 
     def _towards(self, target: Array, q: Array) -> Array:
-        """Joints (m,) as near to a pose as they get within one step of q."""
+        """Joints (m,) as near to a pose as they get within one step of q; q where one would leave
+        limits of its own.
+        """
         domain = self.problem.domain
         low = np.clip(q - self.most, *domain.limits.T)
         high = np.clip(q + self.most, *domain.limits.T)
         slope = partial(slope_at, self.problem, target)
-        return least_error(slope, q, domain.held(low), domain.held(high))
+        nearest = least_error(slope, q, domain.held(low), domain.held(high))
+        return np.where(self.problem.keeps_joints(nearest), nearest, q)
 
     def _solutions(
         self,

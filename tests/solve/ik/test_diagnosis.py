@@ -118,6 +118,7 @@ class Tries:
         free = np.full(2, np.nan)
         self.domain = JointDomain(np.array(limits, float), np.zeros((2, 2)), free, np.zeros(2))
         self.contains = self.domain.contains
+        self.has_joint_limits = False
         self.found, self.states, self.asked = np.array(found, float), states, []
 
     def solve(self, targets, numbers, q0, limits, ranges):  # type: ignore[no-untyped-def]

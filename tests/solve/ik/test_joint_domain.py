@@ -141,18 +141,24 @@ def test_the_first_try_is_at_q0_within_the_limits_or_anywhere_and_at_what_is_loc
         make_joint_domain(units, None, True),
         make_joint_domain(units, (("b", 0.5),), True),
     )
-    assert np.isnan(first_tries(units, free, (3,), 3, None)).all()
-    np.testing.assert_array_equal(first_tries(units, locked, (2,), 2, None), [[np.nan, 0.5]] * 2)
-    np.testing.assert_array_equal(first_tries(units, locked, (), 1, [0.25, 1.0]), [[0.25, 0.5]])
+    assert np.isnan(first_tries(units.fast.chain, units, free, (3,), 3, None)).all()
+    np.testing.assert_array_equal(
+        first_tries(units.fast.chain, units, locked, (2,), 2, None), [[np.nan, 0.5]] * 2
+    )
+    np.testing.assert_array_equal(
+        first_tries(units.fast.chain, units, locked, (), 1, [0.25, 1.0]), [[0.25, 0.5]]
+    )
     # What is locked is no matter of q0.
-    np.testing.assert_array_equal(first_tries(units, locked, (), 1, [1.0, 9.0]), [[1.0, 0.5]])
+    np.testing.assert_array_equal(
+        first_tries(units.fast.chain, units, locked, (), 1, [1.0, 9.0]), [[1.0, 0.5]]
+    )
     with pytest.warns(
         pk.PoekinWarning, match=r"^q0 is outside the limits of 'b' and is moved to them$"
     ):
-        moved = first_tries(units, free, (2,), 2, [[0.5, 0.5], [1.0, -3.0]])
+        moved = first_tries(units.fast.chain, units, free, (2,), 2, [[0.5, 0.5], [1.0, -3.0]])
     np.testing.assert_array_equal(moved, [[0.5, 0.5], [1, -2]])
     with pytest.warns(pk.PoekinWarning, match="limits of 'a', 'b' and"):
-        first_tries(units, free, (), 1, [2, 3])
+        first_tries(units.fast.chain, units, free, (), 1, [2, 3])
 
 
 def test_a_configuration_is_given_for_all_targets_or_for_each():

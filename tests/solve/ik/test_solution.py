@@ -28,7 +28,7 @@ OFF = "2 mm and 0.01719° off"
     (made("solved"), f"solved: {OFF}"),
     (made("bad target", np.nan, np.nan), "bad target: it is not made of finite numbers"),
     (made("limits", blocked=(("a", "b"),)),
-     f"limits: solvable without them, in the way are those of 'a', 'b'; within them the nearest pose found is {OFF}"),
+     f"limits: solvable without them, in the way are those of 'a', 'b'; the nearest pose found is {OFF}"),
     (made("iterations"),
      f"iterations: the nearest try was still moving when they ended; the nearest pose found is {OFF}"),
     (made("unreachable"), f"unreachable: the nearest pose found is {OFF}"),

@@ -40,7 +40,7 @@ NANOSECOND = 1e-9
 class _Limits(NamedTuple):
     """Limits of speed and acceleration of values V q, per s and s²: V (k, m), the others (k,).
 
-    The values are the coordinates, and the joints that follow several of them.
+    The values are the coordinates, and the joints that have limits of their own.
     """
 
     V: Array
@@ -174,7 +174,7 @@ def _limits(speed: Any, acceleration: Any, chain: Chain) -> _Limits:
     return _Limits(
         np.vstack([np.eye(chain.dof), chain.coupling[counts]]),
         np.append(speeds, own[counts]),
-        np.append(accelerations, 0 * own[counts] + np.inf),
+        np.append(accelerations, np.full(counts.sum(), np.inf)),
     )
 
 

@@ -276,6 +276,7 @@ class Trajectory(Result):
             f"between its waypoints the tip is at most {1e3 * self.path_deviation:.3g} mm off the "
             "straight lines",
             *map(self._used, range(self.chain.dof)),
+            *self._used_by_joints(),
             *self._beyond(),
         ]
         return "\n".join(sentences)
@@ -290,6 +291,16 @@ class Trajectory(Result):
             f"{quote(self.chain.q_names[k])}: {100 * speed:.3g} % of its speed, "
             f"{100 * acceleration:.3g} % of its acceleration"
         )
+
+    def _used_by_joints(self) -> list[str]:
+        limits = self.chain.joint_velocity_limits
+        own = np.flatnonzero(np.isfinite(limits))
+        C = self.chain.coupling[own].T
+        speeds = hermite.peaks(self.times, self.q @ C, self.dq @ C)[0].max(axis=0)
+        return [
+            f"joint {quote(self.chain.joint_names[k])}: {100 * speed / limits[k]:.3g} % of its own speed"
+            for k, speed in zip(own.tolist(), speeds, strict=True)
+        ]
 
     def _beyond(self) -> list[str]:
         return [

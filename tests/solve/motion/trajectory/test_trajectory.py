@@ -164,6 +164,17 @@ def test_the_report_says_what_is_used_of_each_limit(trajectory):
     assert document["waypoints"] == trajectory.waypoints.tolist()
 
 
+def test_the_report_says_how_near_joints_of_coupled_readings_come_to_their_own_speeds():
+    arm = pk.load("puma560").chain().replace(velocity_limits=np.full(6, 2.0))
+    chain = arm.coupled("J3 = J2 + J3")
+    q = np.zeros((2, 6))
+    q[1, 1:3] = 10.0  # joint 3 turns by 20 rad
+    lines = motion.time_optimal(chain, q, acceleration=1e4).summary().splitlines()
+    assert lines[3].startswith("'joint2': 50 % of its speed")
+    said = [line for line in lines if line.startswith("joint ")]
+    assert said == ["joint 'joint3': 100 % of its own speed"]
+
+
 def test_how_far_the_tip_leaves_the_lines_between_its_waypoints_is_measured():
     slides = [pk.screw.prismatic([1, 0, 0]), pk.screw.prismatic([0, 1, 0])]
     table = pk.Chain.from_space(slides, np.eye(4))
