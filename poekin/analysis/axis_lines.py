@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..groups.arrays import Array
 from ..model.chain import Chain
-from ..model.readings.coupled import own_limits, sum_limits
+from ..model.readings.coupled import own_limits
 
 Marks = NDArray[np.bool_]
 
@@ -100,22 +100,18 @@ def applied(M: Array, x: Array) -> Array:
 
 
 def uncoupled_at_zero(chain: Chain) -> Chain:
-    """The chain with every joint its own coordinate x, x = 0 where q = 0, and the joints' own limits, or
-    those that several coordinates leave it together; velocity limits are left out.
+    """The chain with every joint its own coordinate x, x = 0 where q = 0, and the joints' own limits;
+    velocity limits are left out.
     """
     if chain.nontrivial_coupling is None and not chain.offset.any():
         return chain
-    limits = own_limits(chain)
-    together = sum_limits(chain.coupling, chain.limits) + chain.offset[:, None]
-    bare = chain.replace(
+    own = chain.replace(
         coupling=None,
         q_names=None,
-        limits=np.where(np.isinf(limits), together, limits),
+        limits=own_limits(chain),
         offset=None,
         velocity_limits=None,
         joint_limits=None,
         joint_velocity_limits=None,
     )
-    if not chain.offset.any():
-        return bare
-    return bare.rezeroed(chain.offset)
+    return own.rezeroed(chain.offset)

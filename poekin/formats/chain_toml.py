@@ -42,8 +42,11 @@ def to_data(chain: Chain) -> dict[str, Any]:
         data["coupling"] = chain.nontrivial_coupling.tolist()
     if chain.pitches.any():
         data["pitches"] = chain.pitches.tolist()
-    further = {key: getattr(chain, key) for key in _LIMITS}
-    return data | {key: a.tolist() for key, a in further.items() if np.isfinite(a).any()}
+    for key in _LIMITS:
+        limits = getattr(chain, key)
+        if np.isfinite(limits).any():
+            data[key] = limits.tolist()
+    return data
 
 
 def to_chain(keys: Keys) -> Chain:
@@ -55,8 +58,13 @@ def to_chain(keys: Keys) -> Chain:
     names = keys.texts("q_names")
     n = len(joints)
     m = len(names)
-    shapes = {"coupling": (n, m), "pitches": (n,)}
-    shapes |= zip(_LIMITS, ((m,), (n, 2), (n,)), strict=True)
+    shapes = {
+        "coupling": (n, m),
+        "pitches": (n,),
+        "velocity_limits": (m,),
+        "joint_limits": (n, 2),
+        "joint_velocity_limits": (n,),
+    }
     arrays = {
         key: keys.array(key, shape, finite=key not in _LIMITS)
         for key, shape in shapes.items()

@@ -14,7 +14,6 @@ import numpy as np
 
 from ..errors import InputError, join_names, quote
 from ..groups import se3
-from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.joint import Joint, Mimic
 from ..model.kinematics.arm import Arm, chain_of
@@ -74,7 +73,13 @@ def serial_robot(chain: Arm) -> Robot:
         )
     readings = own_readings(chain)
     if readings is not None:
-        return _coupled(chain, readings)
+        own = chain.replace(
+            coupling=None,
+            q_names=chain.joint_names,
+            limits=own_limits(chain) - chain.offset[:, None],
+            velocity_limits=own_speeds(chain),
+        )
+        return serial_robot(own).coupled(make_statements(readings, chain.joint_names))
     ends = {chain.base, chain.tip}
     links = [
         chain.base,
@@ -95,17 +100,6 @@ def serial_robot(chain: Arm) -> Robot:
             + "; ".join(changes)
         )
     return robot
-
-
-def _coupled(chain: Chain, K: Array) -> Robot:
-    """The robot of the joints' own values and limits, with the coupling x = K r + c of its readings."""
-    own = chain.replace(
-        coupling=np.eye(len(K)),
-        q_names=chain.joint_names,
-        limits=own_limits(chain) - chain.offset[:, None],
-        velocity_limits=own_speeds(chain),
-    )
-    return serial_robot(own).coupled(make_statements(K, chain.joint_names))
 
 
 def _joint(

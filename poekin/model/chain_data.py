@@ -294,7 +294,15 @@ AnyChain = TypeVar("AnyChain", bound=ChainData)
 
 _OF_JOINTS = ("joint_limits", "joint_velocity_limits")
 _DATA = (
-    *("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip", "pitches"),
+    "screws",
+    "home",
+    "joint_names",
+    "q_names",
+    "limits",
+    "offset",
+    "base",
+    "tip",
+    "pitches",
     "velocity_limits",
     *_OF_JOINTS,
 )

@@ -47,10 +47,10 @@ class JointUnits(NamedTuple):
         """Largest steps (m,) of u, within which no coordinate makes a larger one than these."""
         if self.scale is None:
             return most
-        back = np.abs(np.linalg.inv(self.scale))
-        parts = np.count_nonzero(back, axis=1)
+        back = np.linalg.inv(self.scale)
+        parts = np.count_nonzero(back, axis=1, keepdims=True)
         with np.errstate(divide="ignore"):
-            return (most[:, None] / (parts[:, None] * back)).min(axis=0)
+            return (most[:, None] / np.abs(parts * back)).min(axis=0)
 
     def coordinates(self, u: Array, limits: Array) -> Array:
         """Coordinates q (..., m) of joint units u, within `limits` (m, 2) where u is but for
@@ -77,8 +77,9 @@ def _joint_units(fast: CompiledChain, locked: bool) -> JointUnits:
     C = chain.coupling
     if not locked and _sums_imply_limits(chain):
         limits = own_limits(chain) - chain.offset[:, None]
-        names = chain.joint_names
-        own = chain.replace(coupling=None, q_names=names, limits=limits, joint_limits=None)
+        own = chain.replace(
+            coupling=None, q_names=chain.joint_names, limits=limits, joint_limits=None
+        )
         return JointUnits(own.compile(), C)
     scale = np.array([dominant_ratio(chain, k) for k in range(chain.dof)])
     if (scale == 1.0).all():
@@ -93,8 +94,7 @@ def _sums_imply_limits(chain: Chain) -> bool:
     those of the given ones.
     """
     C = chain.coupling
-    sums = (np.count_nonzero(C, axis=1) > 1).any()
-    if not sums or len(C) != chain.dof or np.linalg.matrix_rank(C) < len(C):
+    if (np.count_nonzero(C, axis=1) <= 1).all() or np.linalg.matrix_rank(C) < max(C.shape):
         return False
     lower, upper = reading_limits(C, own_limits(chain) - chain.offset[:, None]).T
     low, high = chain.limits.T

@@ -52,13 +52,8 @@ def own_readings(chain: ChainData) -> Array | None:
 
 
 def own_limits(chain: ChainData) -> Array:
-    """Limits (n, 2) of the joints' own values x: their own, and what the coordinates' leave; a sum
-    of coordinates of other names than the joints' is left free.
-    """
-    left = sum_limits(chain.coupling, chain.limits) + chain.offset[:, None]
-    if own_readings(chain) is None:
-        left[np.count_nonzero(chain.coupling, axis=1) != 1] = -np.inf, np.inf
-    lower, upper = np.stack([left, chain.joint_limits]).T
+    """Limits (n, 2) of the joints' own values x: their own, and what the coordinates' leave."""
+    lower, upper = np.stack([_implied_limits(chain), chain.joint_limits]).T
     return np.stack([lower.max(axis=-1), upper.min(axis=-1)], axis=-1)
 
 
@@ -69,13 +64,18 @@ def own_speeds(chain: ChainData) -> Array:
 
 def _said_by_joints(chain: ChainData, limits: Array, speeds: Array) -> dict[str, Array]:
     """Limits (n, 2) and speeds (n,) of joints, but for those that the coordinates' imply."""
-    left = sum_limits(chain.coupling, chain.limits) + chain.offset[:, None]
-    implied = (limits[:, 0] <= left[:, 0]) & (left[:, 1] <= limits[:, 1])
+    lower, upper = _implied_limits(chain).T
+    implied = (limits[:, 0] <= lower) & (upper <= limits[:, 1])
     slow = _speeds(chain.coupling, chain.velocity_limits) <= speeds
     return {
         "joint_limits": np.where(implied[:, None], [-np.inf, np.inf], limits),
         "joint_velocity_limits": np.where(slow, np.inf, speeds),
     }
+
+
+def _implied_limits(chain: ChainData) -> Array:
+    """Limits (n, 2) of the joints' own values that the coordinates' leave."""
+    return sum_limits(chain.coupling, chain.limits) + chain.offset[:, None]
 
 
 def beyond_own_limits(chain: ChainData, q: Array) -> np.ndarray:

@@ -94,7 +94,7 @@ def find_causes(
     hit: list[Names] = [()] * len(q)
     open_ones = np.flatnonzero(~success & (state != codes.BAD_TARGET) & (beyond == 0))
     limited = problem.has_joint_limits or np.isfinite(domain.limits).any()
-    if not len(open_ones) or not limited:
+    if not (len(open_ones) and limited):
         return Causes(reason, beyond, tuple(hit))
     free, ends = problem.solve(
         targets[open_ones],

@@ -282,13 +282,11 @@ def _places(
             )
         turns = _turns_between(first, last)
         row = np.repeat(row, number.astype(int))
-    low, high = bounds(chain, limits).T
-    q = np.clip(Q[row] + periods(chain) * turns, low, high) + 0.0
+    q = np.clip(Q[row] + periods(chain) * turns, *bounds(chain, limits).T) + 0.0
     if by_joints:
         kept = np.flatnonzero(~beyond_own_limits(chain, q).any(axis=1))
         number = np.bincount(row[kept], minlength=len(Q))
         if not all_revolutions:
-            kept = kept[np.argsort(np.abs(turns[kept]).sum(axis=1), kind="stable")]
             kept = kept[np.unique(row[kept], return_index=True)[1]]
         q = q[kept]
         row = row[kept]
@@ -300,11 +298,11 @@ def _places(
 
 
 def _turns_between(first: Array, last: Array) -> Array:
-    """All whole turns (S, m) from the first to the last ones (s, m), row after row."""
+    """All whole turns (S, m) from the first to the last ones (s, m), row after row, the fewest first."""
     turns = [
         product
         for f, g in zip(first, last, strict=True)
-        for product in itertools.product(*map(np.arange, f, g + 1))
+        for product in sorted(itertools.product(*map(np.arange, f, g + 1)), key=np.linalg.norm)
     ]
     return np.array(turns, float).reshape(-1, first.shape[1])
 

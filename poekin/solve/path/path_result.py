@@ -176,7 +176,7 @@ class PathResult(Result):
         """
         units = joint_units(self.chain.compile(), bool(self.lock))
         locked = self._locked
-        held = np.where(np.isnan(locked), locked, units.of(np.nan_to_num(locked)))
+        held = locked * units.of(np.ones(len(locked)))
         rank = self.task.generic_rank(units.fast.chain, held)
         if not rank:
             return np.ones(len(self.q))

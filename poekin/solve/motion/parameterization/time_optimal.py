@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -38,7 +39,7 @@ NANOSECOND = 1e-9
 
 
 class _Limits(NamedTuple):
-    """Limits of speed and acceleration of values V q, per s and s²: V (k, m), the others (k,).
+    """Limits of speed and acceleration of values q V, per s and s²: V (m, k), the others (k,).
 
     The values are the coordinates, and the joints that have limits of their own.
     """
@@ -156,7 +157,22 @@ def _points(q: Any, chain: Chain) -> Array:
 
 
 def _limits(speed: Any, acceleration: Any, chain: Chain) -> _Limits:
-    speeds = _speed_limits(speed, chain)
+    """Limits of speed that are given, else those of the arm. Raises: InputError."""
+    names = chain.q_names
+    given = names
+    if speed is None or isinstance(speed, Mapping):
+        given = dict(speed or {})
+        speed = dict(zip(names, chain.velocity_limits.tolist(), strict=True)) | given
+    speeds = per_coordinate(speed, chain, "speed")
+    left = np.array([name not in given for name in names], dtype=bool)
+    unknown = list(itertools.compress(names, left & np.isinf(speeds)))
+    if unknown:
+        raise InputError(
+            f"speed: the model states no limit for {join_names(unknown)}; give one for each"
+        )
+    followers = chain.coupling[:, left].any(axis=1)
+    own = np.flatnonzero(followers & np.isfinite(chain.joint_velocity_limits))
+    speeds = np.append(speeds, chain.joint_velocity_limits[own])
     accelerations = per_coordinate(acceleration, chain, "acceleration")
     finite = np.where(np.isinf(speeds), 1.0, speeds)
     for what, values in (("speed", finite), ("acceleration", accelerations)):
@@ -165,32 +181,11 @@ def _limits(speed: Any, acceleration: Any, chain: Chain) -> _Limits:
                 f"{what}: expected numbers from {1 / LARGEST:g} to {LARGEST:g}, "
                 f"got {safe_repr(values.tolist())}"
             )
-    given = chain.q_names
-    if speed is None or isinstance(speed, Mapping):
-        given = speed or ()
-    left = [name not in given for name in chain.q_names]
-    own = np.where(chain.coupling[:, left].any(axis=1), chain.joint_velocity_limits, np.inf)
-    counts = np.isfinite(own)
     return _Limits(
-        np.vstack([np.eye(chain.dof), chain.coupling[counts]]),
-        np.append(speeds, own[counts]),
-        np.append(accelerations, np.full(counts.sum(), np.inf)),
+        np.vstack([np.eye(chain.dof), chain.coupling[own]]).T,
+        speeds,
+        np.append(accelerations, np.full(len(own), np.inf)),
     )
-
-
-def _speed_limits(speed: Any, chain: Chain) -> Array:
-    """Limits of speed (m,), the arm's own where none are given. Raises: InputError."""
-    if speed is not None and not isinstance(speed, Mapping):
-        return per_coordinate(speed, chain, "speed")
-    given = dict(speed or {})
-    known = dict(zip(chain.q_names, chain.velocity_limits.tolist(), strict=True))
-    limits = per_coordinate(known | given, chain, "speed")
-    unknown = [name for name in known if name not in given and np.isinf(known[name])]
-    if unknown:
-        raise InputError(
-            f"speed: the model states no limit for {join_names(unknown)}; give one for each"
-        )
-    return limits
 
 
 def _within_limits(spline: JointSpline, limits: _Limits) -> _Motion:
@@ -212,7 +207,7 @@ def _fastest(spline: JointSpline, limits: _Limits) -> tuple[Array, Array]:
     s = _grid(spline.knots)
     for left in reversed(range(ROUNDS)):
         path = spline.at(s)
-        values = PathDerivatives(*(part @ limits.V.T for part in path))
+        values = PathDerivatives(*(part @ limits.V for part in path))
         x = fastest(s, values, limits.speed, limits.acceleration)
         motion = _Motion(s, times_of(s, x), path.q, path.first * np.sqrt(x)[:, None])
         worst = np.flatnonzero(_excess(motion, limits) > EXCESS)
@@ -257,7 +252,7 @@ def _timed(
 def _excess(motion: _Motion, limits: _Limits) -> Array:
     """Share (N - 1,) by which each step exceeds a limit: of the acceleration, or speed squared."""
     V = limits.V
-    speed, acceleration = peaks(motion.times, motion.q @ V.T, motion.dq @ V.T)
+    speed, acceleration = peaks(motion.times, motion.q @ V, motion.dq @ V)
     by_speed = (speed / limits.speed).max(axis=1)
     by_acceleration = (acceleration / limits.acceleration).max(axis=1)
     return np.maximum(by_speed**2, by_acceleration)

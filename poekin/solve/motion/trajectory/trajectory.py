@@ -293,13 +293,13 @@ class Trajectory(Result):
         )
 
     def _used_by_joints(self) -> list[str]:
-        limits = self.chain.joint_velocity_limits
-        own = np.flatnonzero(np.isfinite(limits))
-        C = self.chain.coupling[own].T
+        C = self.chain.coupling.T
         speeds = hermite.peaks(self.times, self.q @ C, self.dq @ C)[0].max(axis=0)
+        shares = zip(self.chain.joint_names, speeds / self.chain.joint_velocity_limits, strict=True)
         return [
-            f"joint {quote(self.chain.joint_names[k])}: {100 * speed / limits[k]:.3g} % of its own speed"
-            for k, speed in zip(own.tolist(), speeds, strict=True)
+            f"joint {quote(name)}: {100 * share:.3g} % of its own speed"
+            for name, share in shares
+            if share
         ]
 
     def _beyond(self) -> list[str]:

@@ -225,6 +225,16 @@ def test_a_speed_of_infinity_is_no_limit(arm):
     assert found.duration == pytest.approx(1.0, rel=2e-3)  # 2 sqrt(1 / 4)
 
 
+def test_a_joint_s_own_limit_of_speed_that_is_no_robot_s_is_refused():
+    arm = pk.load("puma560").chain().replace(velocity_limits=np.ones(6))
+    joint_speeds = np.full(6, np.inf)
+    joint_speeds[2] = 1e-300
+    chain = arm.coupled("J3 = J2 + J3").replace(joint_velocity_limits=joint_speeds)
+    q = np.array([np.zeros(6), np.ones(6)])
+    with pytest.raises(InputError, match="speed: expected numbers from 1e-09 to 1e"):
+        motion.time_optimal(chain, q, acceleration=1.0)
+
+
 ONES = np.array([np.zeros(6), np.ones(6)])
 BAD = {
     "no limit of speed": (
