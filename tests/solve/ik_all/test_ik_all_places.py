@@ -67,12 +67,12 @@ def test_of_places_whole_turns_apart_the_one_nearest_to_0_is_listed_with_their_n
     assert (free.number.tolist(), free.within.tolist()) == ([1] * 4, [2, 0, 2])
 
 
-def test_copies_are_all_places_within_the_limits():
+def test_copies_are_all_places_within_the_limits_the_fewest_turns_first():
     places = module._places(arm([-TURN, 2 * TURN]), EVERY, True, True)
-    expected = [[0.1 + k * TURN, 0.5] for k in (-1, 0, 1)] + [
+    expected = [[0.1 + k * TURN, 0.5] for k in (0, -1, 1)] + [
         [-3 + k * TURN, 0.25] for k in (0, 1, 2)
     ]
-    expected += [[3 + k * TURN, -0.5] for k in (-1, 0, 1)]
+    expected += [[3 + k * TURN, -0.5] for k in (0, -1, 1)]
     np.testing.assert_allclose(places.q, expected, atol=1e-13)
     assert (places.owner.tolist(), places.number.tolist()) == ([0] * 3 + [2] * 6, [1] * 9)
     assert places.within.tolist() == [1, 0, 2], "solutions, not places"
