@@ -167,11 +167,14 @@ class _Mistake(NamedTuple):
 
 
 class _Compared(NamedTuple):
-    """A comparison, how many axes or links differ, and whether it needs no other explanation."""
+    """A comparison, how many axes or links differ, whether it needs no other explanation, and the
+    largest distance (m) between poses that are aligned.
+    """
 
     result: Comparison
     moved: int
     simple: bool
+    distance: float = np.inf
 
 
 RIGHT = _Mistake()
@@ -189,8 +192,7 @@ def _in_one_unit(
     said = _Mistake("millimetres", unit_words(ratio), ratio)
     one, other = to_one_unit(a, b, ratio)
     trial = _compared(one, other, asked, said)
-    after = trial.result.after
-    near = after is not None and after.worst_position <= ONE_ARM * one.reach
+    near = trial.distance <= ONE_ARM * one.reach
     return trial._replace(simple=near or not trial.moved)
 
 
@@ -244,6 +246,7 @@ def _compared(
         mistake=mistake.name,
         length_ratio=mistake.length_ratio,
     )
+    after = _pose_errors(poses, reading.poses(pair.b, pair.x))
     if asked.strict:
         stand = as_they_stand(pair.a, pair.b, asked.tol)
         result = replace(
@@ -253,11 +256,10 @@ def _compared(
             aligned_to="nothing",
         )
     else:
-        after = _pose_errors(poses, reading.poses(pair.b, pair.x))
         result = replace(result, tool=reading.tool, after=after)
     moved = int(reading.beside_link.sum()) + bool(reading.link)
     simple = not moved and int(reading.changes.sum()) < 2
-    return _Compared(result, moved, simple)
+    return _Compared(result, moved, simple, after.worst_position)
 
 
 def _diagnosis(pair: Matched, asked: Asked) -> Diagnosis:

@@ -107,11 +107,16 @@ def test_the_unit_of_a_calibrated_arm_is_named_though_every_axis_differs():
     worn = chain.screws.copy()
     for k in range(6):
         worn[k] = se3.adjoint(se3.exp(1e-3 * rng.normal(size=6))) @ worn[k]
-    result = compare(chain, rescaled(chain.replace(screws=worn), 1000.0))
+    other = rescaled(chain.replace(screws=worn), 1000.0)
+    result = compare(chain, other)
     assert (result.mistake, result.length_ratio, len(result.differing)) == ("millimetres", 1000, 6)
     assert result.after is not None
     # 1 mrad and 1 mm an axis and coordinate, on an arm of 1.3 m.
     assert 0.01 * chain.reach < result.after.worst_position < 0.02 * chain.reach
+    # Joints as they stand are shown in one unit too.
+    strict = compare(chain, other, strict=True)
+    assert (strict.verdict, strict.length_ratio) == (result.verdict, 1000)
+    assert max(joint.shift for joint in strict.joints) < 0.01
 
 
 def elbow(length):
