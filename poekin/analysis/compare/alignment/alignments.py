@@ -59,8 +59,6 @@ class Alignments(Rows):
         return self[np.tile(each, times)]
 
     def moved(self, steps: Array) -> Self:
-        """Alignments from which steps (m, 6 + n) lead: a motion of the base, changes of zero
-        offsets.
-        """
+        """Alignments to which steps (m, 6 + n) lead: a motion of the base, changes of zero offsets."""
         motions = se3.exp(steps[:, :6])
         return type(self)(motions @ self.P, self.z + steps[:, 6:])

@@ -29,8 +29,8 @@ HALF = 0.5
 leave: one that explains less is no alignment.
 """
 QUARTER = 0.25
-"""Share of the pose errors that another zero of one joint may leave where all axes differ: one degree
-or more beside a calibration.
+"""Share of the pose errors that another zero of one joint may leave where all axes differ: beside an
+industrial arm's calibration of some 0.1 degrees and 1 mm, a zero that is wrong by 3 degrees.
 """
 
 
