@@ -142,6 +142,7 @@ def _borne_out(printed: Digits, deviations: Array, left: Array) -> Digits:
 
 def _refined(printed: Digits) -> Iterator[Digits]:
     """The digits as they were found, then with more and more of the joint readings', at last all."""
+    # With more than MOST places no grid is left.
     for more in (*range(MOST), MOST + 1):
         yield printed._replace(
             angles=_finer(printed.angles, more),
