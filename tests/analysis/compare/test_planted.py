@@ -11,6 +11,7 @@ import pytest
 
 from benchmarks.planted_changes import ARMS, arm
 from poekin.analysis.compare.compare import compare
+from poekin.formats.load import load
 from tests.analysis.compare.planted import KINDS, Case, fault, plant, with_limits
 
 FRAMES = ("tool", "base", "mm file")
@@ -61,6 +62,30 @@ def test_of_two_differences_at_once_the_outcome_is_right_and_nine_in_ten_are_nam
     assert len(outcomes) == len(pairs)
     assert all(outcomes)
     assert np.mean(named) >= 0.9
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("kind", ["tilt", "shift"])
+@pytest.mark.parametrize("link", [1, 2])
+@pytest.mark.parametrize("name", ["ur5e", "ur10e"])
+def test_an_axis_behind_another_link_is_told_beside_it_where_the_others_are_parallel(
+    name, link, kind, swapped
+):
+    chain = with_limits(load(name).chain(tip={"ur5e": "tool0"}.get(name)))
+    rng = np.random.default_rng(link)
+    case = plant(plant(Case(chain, ()), kind, 4, rng), "link length", link, rng)
+    pair = (case.chain, chain) if swapped else (chain, case.chain)
+    assert fault(compare(*pair, samples=5), case) == ""
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_an_axis_is_told_in_full_and_not_in_part_as_a_base_or_tool_that_moved(seed):
+    chain = with_limits(load("stanford").chain())
+    rng = np.random.default_rng(seed)
+    case = plant(plant(Case(chain, ()), "tilt", 4, rng), "shift", 1, rng)
+    result = compare(chain, case.chain, samples=5)
+    assert fault(result, case) == ""
+    assert result.base == pytest.approx(np.eye(4), abs=1e-9)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -35,6 +35,9 @@ class Costs(NamedTuple):
     # One other zero or direction beside another link, and each further one.
     first_beside_link: float = 1.0
     more_beside_link: float = 2.5
+    # Base or tool that moved, beside another link or several axes: an axis that is farther off is
+    # likelier, another one that moved is not.
+    frame: float = 1.5
     # Each of several moved axes: likelier than two zeros (3.5), less so than one (2.5).
     axis: float = 3.0
     # Share of its distance that one moved axis counts: a tie-break. Of several it counts in full,
@@ -137,12 +140,13 @@ class Hypothesis:
             if moved and self.frames == 2:
                 alone = COSTS.axis_in_moved_frames
             return (alone, self.frames, moved, near)
+        frames = COSTS.frame * self.frames
         if self.link:
             own = self.deviations[self.beside_link]
             beside = COSTS.axis * len(own) + float((own**0.25).sum())
             if changes:
                 beside += COSTS.first_beside_link + COSTS.more_beside_link * (changes - 1)
-            return (COSTS.link + beside, self.frames, moved, near)
+            return (COSTS.link + beside + frames, self.frames, moved, near)
         weight = COSTS.conventions_start + COSTS.conventions_step * conventions
         if conventions < len(COSTS.conventions):
             weight = COSTS.conventions[conventions]
@@ -151,7 +155,7 @@ class Hypothesis:
         if moved <= 1:
             far *= COSTS.distance_of_one_axis
         # Rounded, as how near axes are is not to decide before frames that stay where they are.
-        several = round(COSTS.axis * moved + far + weight, 2)
+        several = round(COSTS.axis * moved + far + weight + frames * (moved > 1), 2)
         return (several, self.frames, changes, near)
 
 

@@ -72,7 +72,5 @@ def with_front_link(pair: Sides, reading: Hypothesis) -> Hypothesis | None:
 def _alignments(pair: Sides, readings: list[Hypothesis]) -> Alignments:
     """The alignments, about the arms' centres, that readings stand for."""
     P = np.array([reading.base for reading in readings]).reshape(-1, 4, 4)
-    turned = P[:, :3, :3] @ pair.b.centre
-    P[:, :3, 3] += turned - pair.a.centre
     z = np.array([reading.zeros for reading in readings]).reshape(-1, pair.n)
-    return Alignments(P, z)
+    return Alignments(pair.on_centre(P), z)

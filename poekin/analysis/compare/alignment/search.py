@@ -186,10 +186,13 @@ def _links(pair: Sides, rigid: Alignments) -> list[Hypothesis]:
 
 
 def _other_links(pair: Sides, found: list[Hypothesis]) -> list[Hypothesis]:
-    """The best readings of several moved axes with another link in place of the last ones."""
+    """The best readings of several moved axes, and those in which the base or the tool stays, with
+    another link in place of the last or the first axes.
+    """
     several = [r for r in found if r.moved.sum() > 1 and not r.link]
     several.sort(key=_cost)
-    few = several[:MOST_LINKED]
+    in_place = pair.as_they_stand.joined(pair.tool_as_it_stands)
+    few = several[:MOST_LINKED] + make_hypotheses(pair, in_place)
     in_front = (with_front_link(pair, reading) for reading in few)
     return with_link(pair, few) + [reading for reading in in_front if reading is not None]
 

@@ -81,8 +81,8 @@ def test_two_arms_are_not_aligned_where_the_poses_that_are_told_get_worse(swappe
     if swapped:
         pair.reverse()
     result = pk.compare(*pair)
-    assert result.before
-    assert result.after
+    assert result.before is not None
+    assert result.after is not None
     assert result.after.worst_position <= result.before.worst_position
     assert result.after.mean_position <= result.before.mean_position
     assert result.aligned_to == "nothing"
