@@ -25,7 +25,7 @@ from .length_unit import length_ratio, to_one_unit
 from .messages import ZERO_DEGREES, count_words, degree_words, equivalents, mirror_words, unit_words
 from .mistakes.mirror import mirror_of, mirrored
 from .mistakes.rpy_degrees import in_degrees, zeros_in_degrees
-from .reached import ONE_ARM, pose_differences
+from .reached import near, pose_differences
 from .unmatched_joints import MOST
 
 __all__ = ["compare"]
@@ -167,14 +167,11 @@ class _Mistake(NamedTuple):
 
 
 class _Compared(NamedTuple):
-    """A comparison, how many axes or links differ, whether it needs no other explanation, and the
-    largest distance (m) between poses that are aligned.
-    """
+    """A comparison, how many axes or links differ, and whether it needs no other explanation."""
 
     result: Comparison
     moved: int
     simple: bool
-    distance: float = np.inf
 
 
 RIGHT = _Mistake()
@@ -189,11 +186,8 @@ def _in_one_unit(
     ratio = length_ratio(a, b)
     if ratio == 1:
         return None
-    said = _Mistake("millimetres", unit_words(ratio), ratio)
-    one, other = to_one_unit(a, b, ratio)
-    trial = _compared(one, other, asked, said)
-    near = trial.distance <= ONE_ARM * one.reach
-    return trial._replace(simple=near or not trial.moved)
+    mistake = _Mistake("millimetres", unit_words(ratio), ratio)
+    return _compared(*to_one_unit(a, b, ratio), asked, mistake)
 
 
 def _unmatched(n_a: int, n_b: int, asked: Asked) -> _Compared:
@@ -246,7 +240,6 @@ def _compared(
         mistake=mistake.name,
         length_ratio=mistake.length_ratio,
     )
-    after = _pose_errors(poses, reading.poses(pair.b, pair.x))
     if asked.strict:
         stand = as_they_stand(pair.a, pair.b, asked.tol)
         result = replace(
@@ -256,10 +249,13 @@ def _compared(
             aligned_to="nothing",
         )
     else:
+        after = _pose_errors(poses, reading.poses(pair.b, pair.x))
         result = replace(result, tool=reading.tool, after=after)
     moved = int(reading.beside_link.sum()) + bool(reading.link)
     simple = not moved and int(reading.changes.sum()) < 2
-    return _Compared(result, moved, simple, after.worst_position)
+    if mistake.length_ratio != 1:
+        simple = not moved or near(pair.a, pair.b, reading)
+    return _Compared(result, moved, simple)
 
 
 def _diagnosis(pair: Matched, asked: Asked) -> Diagnosis:

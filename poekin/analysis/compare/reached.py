@@ -15,8 +15,10 @@ from .alignment.hypotheses import Hypothesis
 from .alignment.lines import Sides
 
 SAMPLES = 8
-ONE_ARM = 0.02
-"""Pose errors up to this share of the reach, or of half a turn, are those of one arm, not of two."""
+ONE_ARM = 0.03
+"""Pose errors up to this share of the reach and of half a turn, added up, are those of one arm, not of
+two.
+"""
 
 
 def poses_agree(
@@ -37,13 +39,23 @@ def poses_agree(
     by at most 2 tol_rad; a joint that slides by x moves it by at most tol_rad x, and pitches that
     are alike differ by at most tol_m a turn. Over the joints these add up.
     """
-    own = b.random(0, SAMPLES)
-    theirs = reading.directions * (own - reading.zeros)
-    x = np.concatenate([a.random(0, SAMPLES), theirs])
-    ours = a.fk(x)
-    moved, turned = pose_differences(ours, reading.poses(b, x))
+    moved, turned = _sampled(a, b, reading)
     most = _bounds(pair, a, b)
     return bool(moved.max() <= most.position and turned.max() <= most.rotation)
+
+
+def near(a: Chain, b: Chain, reading: Hypothesis) -> bool:
+    """Whether poses under a reading differ as those of one arm do, whichever comes first."""
+    moved, turned = _sampled(a, b, reading)
+    errors = moved.max() / max(a.reach, b.reach) + turned.max() / np.pi
+    return bool(errors <= ONE_ARM)
+
+
+def _sampled(a: Chain, b: Chain, reading: Hypothesis) -> tuple[Array, Array]:
+    """Differences of poses under a reading, within the limits of either arm."""
+    theirs = reading.directions * (b.random(0, SAMPLES) - reading.zeros)
+    x = np.concatenate([a.random(0, SAMPLES), theirs])
+    return pose_differences(a.fk(x), reading.poses(b, x))
 
 
 def pose_differences(ours: Array, theirs: Array) -> tuple[Array, Array]:

@@ -119,6 +119,24 @@ def test_the_unit_of_a_calibrated_arm_is_named_though_every_axis_differs():
     assert max(joint.shift or 0.0 for joint in strict.joints) < 0.01
 
 
+@pytest.mark.parametrize("seed", [2, 4, 7])
+def test_the_unit_is_named_either_way_round_and_by_however_many_samples_beside_axes_some_mm_off(
+    seed,
+):
+    chain = load("ur5").chain()
+    rng = np.random.default_rng(seed)
+    screws = chain.screws.copy()
+    for k in (1, 3, 5):
+        screws[k] = se3.adjoint(se3.exp(0.004 * rng.normal(size=6))) @ screws[k]
+    zeros = np.radians([0, 0, 0, 90, 0, 0])
+    other = rescaled(chain.replace(screws=screws).rezeroed(zeros), 1000.0)
+    # The limits differ, and so do the configurations at which either order looks at poses.
+    other = other.replace(limits=chain.limits)
+    for pair in ((chain, other), (other, chain)):
+        for samples in (3, 30):
+            assert compare(*pair, samples=samples).mistake == "millimetres"
+
+
 def elbow(length):
     """Three axes of which the first two intersect: in one unit or the other one of them differs."""
     places = ([0, 0, 1], [0, 0, 0]), ([0, 1, 0], [0, 0, 0]), ([0, 1, 0], [length, 0, 0])

@@ -169,7 +169,7 @@ def make_hypotheses(pair: Sides, at: Alignments) -> list[Hypothesis]:
     at = Alignments(at.P, wrapped(at.z, pair.b.revolute))
     b = pair.transformed(at)
     miss = b.deviations
-    base = off_centre(pair, at.P)
+    base = pair.off_centre(at.P)
     carriers = pair.carriers(at)
     tool = tool_behind(pair, carriers[:, -1])
     axes = b.axes
@@ -185,7 +185,7 @@ def make_hypotheses(pair: Sides, at: Alignments) -> list[Hypothesis]:
         np.minimum(miss, 1e9),
         frames_moved(pair, base, tool).tolist(),
         [0] * len(miss),
-        off_centre(pair, carriers[:, :-1]),
+        pair.off_centre(carriers[:, :-1]),
     )
     return [Hypothesis(*row) for row in zip(*columns, strict=True)]
 
@@ -198,7 +198,7 @@ def as_they_stand(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis:
 
 def tool_behind(pair: Sides, P: Array) -> Array:
     """Poses (..., 4, 4) of a's tool in b's, where b's last link is carried by poses P."""
-    end = off_centre(pair, P) @ pair.b.home
+    end = pair.off_centre(P) @ pair.b.home
     return se3.inverse(end) @ pair.a.home
 
 
@@ -237,11 +237,3 @@ def turn_about(T: Array, S: Array, tol: Tolerances) -> float | None:
         if still(se3.inverse(se3.exp(S * value)) @ T, tol):
             return value
     return None
-
-
-def off_centre(pair: Sides, P: Array) -> Array:
-    """The poses (..., 4, 4) between the arms' own bases, of those between their centres."""
-    T = P.copy()
-    turned = P[..., :3, :3] @ pair.b.centre
-    T[..., :3, 3] += pair.a.centre - turned
-    return T

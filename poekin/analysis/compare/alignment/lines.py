@@ -88,23 +88,28 @@ class Sides:
     @property
     def as_they_stand(self) -> Alignments:
         """The alignment that changes nothing."""
-        return self.rigid(np.eye(4))
+        return self._rigid(np.eye(4))
 
     @property
     def tool_as_it_stands(self) -> Alignments:
         """The alignment that leaves the tool where it is."""
-        return self.rigid(self.a.home @ se3.inverse(self.b.home))
+        return self._rigid(self.a.home @ se3.inverse(self.b.home))
 
-    def rigid(self, P: Array) -> Alignments:
-        """The alignment of b's base at P (4, 4) in a's, without any zero offset."""
+    def _rigid(self, P: Array) -> Alignments:
         return Alignments.rigid(self.on_centre(P)[None], self.n)
 
-    def on_centre(self, P: Array) -> Array:
-        """The poses (..., 4, 4) between the arms' centres, of those between their own bases."""
+    def on_centre(self, P: Array, sign: float = 1.0) -> Array:
+        """The poses (..., 4, 4) between the arms' centres, of those between their own bases; the
+        other way round where the sign is -1.
+        """
         T = P.copy()
         turned = P[..., :3, :3] @ self.b.centre
-        T[..., :3, 3] += turned - self.a.centre
+        T[..., :3, 3] += sign * (turned - self.a.centre)
         return T
+
+    def off_centre(self, P: Array) -> Array:
+        """The poses (..., 4, 4) between the arms' own bases, of those between their centres."""
+        return self.on_centre(P, -1.0)
 
     def carriers(self, at: Alignments) -> Array:
         """D_1 ... D_{n+1} (m, n + 1, 4, 4): D_i = P e^{B_1 z_1} ... e^{B_{i-1} z_{i-1}}, about the

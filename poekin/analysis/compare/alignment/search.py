@@ -186,13 +186,12 @@ def _links(pair: Sides, rigid: Alignments) -> list[Hypothesis]:
 
 
 def _other_links(pair: Sides, found: list[Hypothesis]) -> list[Hypothesis]:
-    """The best readings of several moved axes, and those in which the base or the tool stays, with
-    another link in place of the last or the first axes.
+    """The best readings of several moved axes, and that in which the tool stays, with another link in
+    place of the last or the first axes.
     """
     several = [r for r in found if r.moved.sum() > 1 and not r.link]
     several.sort(key=_cost)
-    in_place = pair.as_they_stand.joined(pair.tool_as_it_stands)
-    few = several[:MOST_LINKED] + make_hypotheses(pair, in_place)
+    few = several[:MOST_LINKED] + make_hypotheses(pair, pair.tool_as_it_stands)
     in_front = (with_front_link(pair, reading) for reading in few)
     return with_link(pair, few) + [reading for reading in in_front if reading is not None]
 

@@ -10,7 +10,7 @@ from ....model.chain import Chain
 from ...axis_lines import Tolerances
 from ..alignment.hypotheses import Hypothesis, as_they_stand
 from ..alignment.search import agreeing
-from ..reached import ONE_ARM, SAMPLES, pose_differences
+from ..reached import near
 
 Axis = Literal["x", "y", "z"]
 AXES: tuple[Axis, ...] = ("x", "y", "z")
@@ -51,9 +51,9 @@ def mirror_of(
             return axis
     if not moved:
         return None
-    near = [_near(a, other, tol) for other in (b, *mirrors)]
-    if True in near:
-        return (None, *AXES)[near.index(True)]
+    one_arm = [_near(a, other, tol) for other in (b, *mirrors)]
+    if True in one_arm:
+        return (None, *AXES)[one_arm.index(True)]
     # Mirrors across other planes differ by a motion.
     found = agreeing(a, mirrors[0], tol)
     if found is not None and not found.offset.any():
@@ -69,7 +69,4 @@ def _one_way(reading: Hypothesis) -> bool:
 def _near(a: Chain, b: Chain, tol: Tolerances) -> bool:
     """Whether the poses, as the models stand, differ as those of one arm do."""
     reading = as_they_stand(a, b, tol)
-    x = a.random(0, SAMPLES)
-    moved, turned = pose_differences(a.fk(x), reading.poses(b, x))
-    errors = moved.max() / a.reach + turned.max() / np.pi
-    return _one_way(reading) and bool(errors <= ONE_ARM)
+    return _one_way(reading) and near(a, b, reading)

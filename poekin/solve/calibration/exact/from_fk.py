@@ -167,9 +167,9 @@ def _remarks(moved: str, fit: _Fit) -> list[str]:
     """Remarks on frames, digits and number of the pairs."""
     digits = str(fit.judged.digits)
     count = len(fit.linear.errors)
-    remarks = [moved]
+    remarks = [moved] if moved else []
     if digits:
         remarks.append(f"the digits of the pairs are the limit: {digits}")
     if count < FEW:
         remarks.append(f"{count} pairs: {FEW} and more say better whether the arm is a rigid one")
-    return list(filter(None, remarks))
+    return remarks
