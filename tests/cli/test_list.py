@@ -73,6 +73,13 @@ def test_list_takes_no_model(words, refused):
     assert refused("list", *words)
 
 
+def test_where_the_names_come_from_stands_in_one_column_under_its_title(poekin):
+    _, out, _ = poekin("list")
+    title, _, *rows = out.splitlines()
+    start = title.index("comes from")
+    assert all(row[start - 1] == " " != row[start] for row in rows)
+
+
 def test_a_robot_that_has_a_table_too_says_where_it_is(poekin):
     _, out, _ = poekin("list")
     rows = {line.split()[0]: line.split(None, 1)[1] for line in out.splitlines()[2:]}

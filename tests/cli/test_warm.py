@@ -24,6 +24,8 @@ def test_every_kernel_is_compiled_and_kept(poekin):
     assert all(kernel.call == kernel.ready() for kernel in found.values())
     place = cache.usable_directory()
     assert place is not None
+    size = sum(file.stat().st_size for file in cache.used if file.parent == place)
+    assert f", {size / 2**20:.1f} MiB, " in out
     names = {file.name.rpartition("-")[0] for file in place.glob("*.kernel")}
     assert {name.rpartition(".")[2] for name in found} <= names
 

@@ -22,7 +22,7 @@ from poekin.formats import urdf
 from poekin.formats.erd import example_robots
 from poekin.formats.load import load
 from poekin.formats.serial import serial_robot
-from poekin.formats.urdf_text import to_urdf
+from poekin.formats.urdf_text import has_text, own_urdf, to_urdf
 from poekin.model.chain import Chain
 from poekin.model.joint import FREE, MOVING, Joint, SafetyController
 from poekin.model.robot import Robot
@@ -333,3 +333,14 @@ def test_planted_errors_are_found_by_reading_back(plant):
     assert text_off(robot, wrong, 0).max() > 10
     assert differences(robot, right) == []
     assert differences(robot, wrong)
+
+
+@pytest.mark.parametrize("source", [None, "elsewhere.xml"])
+def test_a_robot_that_was_read_from_no_urdf_is_written_as_a_new_one(source):
+    robot = Robot("r", ["a"], [], source)
+    assert not has_text(robot)
+    assert own_urdf(robot) == to_urdf(robot).encode()
+    text = "<robot name='r'><link name='a'/></robot>"
+    read = urdf.read_text(text, "r")
+    assert has_text(read)
+    assert own_urdf(read) == text.encode()

@@ -26,6 +26,12 @@ def test_a_joint_is_summed_up_in_mm_and_degrees():
     assert replace(SLIDE, kind_b="revolute").unit == "rad", "the offset is one of b's joint"
 
 
+def test_a_joint_is_summed_up_to_four_digits_of_each_size():
+    joint = replace(JOINT, angle=math.radians(1.23456), shift=0.01234567, zero_offset=-0.00123456)
+    said = "joint 3 (elbow): axes 1.235°, 12.35 mm apart at the arm, zero offset -0.07074°"
+    assert str(joint) == said
+
+
 def test_pose_errors_are_summed_up_in_mm_and_degrees():
     errors = PoseDifferences(0.0123, 0.001, math.radians(2), math.radians(0.25))
     assert str(errors) == "worst 12.3 mm, 2°; mean 1 mm, 0.25°"

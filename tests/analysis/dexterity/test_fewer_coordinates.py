@@ -146,6 +146,12 @@ def test_the_largest_rank_is_counted_in_lengths_of_the_arm_and_rounding_is_no_mo
     )
 
 
+@pytest.mark.parametrize("axis", np.eye(3), ids=["x", "y", "z"])
+def test_a_slide_counts_along_whatever_axis_it_moves(axis):
+    bolt = [pk.screw.revolute(axis, [0, 0, 0]), pk.screw.prismatic(axis)]
+    assert generic_rank(pk.Chain.from_space(bolt, np.eye(4)), "pose") == 2
+
+
 def test_manipulability_of_a_planar_arm_is_that_of_its_plane():
     q = np.array([[0.3, 1.0, -0.4, 0.5], [0.3, 0.0, 0.0, 0.0]])
     arm = planar(0.5, 0.4, 0.3, 0.2)

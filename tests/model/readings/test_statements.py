@@ -73,6 +73,7 @@ def test_a_name_of_the_robot_comes_before_its_number():
         ("J3 = 'lef'", f"'J3 = 'lef'': expected the name of a reading, got ''lef''{THERE}"),
         ("J3 = J3 + 1e999 J2", "'J3 = J3 + 1e999 J2' has numbers that are not finite"),
         ("J3 = J2", f"'J3 = J2': {SINGULAR}"),
+        ("J3 = 1e10 J3", f"'J3 = 1e10 J3': {SINGULAR}"),
         (["J3 = J2 + J3", "q3 = J3"], "'J3' is said twice"),
         ([3], "expected a text, got 3"),
         (3, "expected statements such as 'J3 = J2 + J3', got 3"),

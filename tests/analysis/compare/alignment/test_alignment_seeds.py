@@ -416,3 +416,12 @@ def test_the_axes_on_the_other_side_of_a_joint_tell_its_offset(k, monkeypatch):
     # Each brings there either of two turns.
     counts = [2 * some.sum() * others for some, others in ((front, 5 - k), (back, k)) if some.any()]
     assert kept == [*counts, sum(counts)]
+
+
+def test_of_two_alignments_alike_the_one_that_reverses_no_axis_is_best():
+    rows = [screw.revolute(z, [0, 0, 0]) for z in ([0, 0, 1], [1, 0, 0])]
+    chain = Chain.from_space(rows, np.eye(4))
+    pair = sides(chain, chain, Tolerances(1e-5, 1e-5))
+    half_turn = np.diag([-1.0, -1.0, 1.0, 1.0])  # the second axis points the other way
+    at = Alignments.rigid(np.stack([half_turn, np.eye(4)]), 2)
+    np.testing.assert_array_equal(alignment_seeds.best(pair, at, 1).P[0], np.eye(4))

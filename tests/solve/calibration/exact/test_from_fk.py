@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.errors import InputError, PoseError, ShapeError
+from poekin.errors import InputError, PoseError, ShapeError, escape_unprintable
 from poekin.formats.rpy import pose
 from poekin.groups import rpy, se3, so3
 from poekin.solve.calibration import Poses, from_fk, simulated
@@ -315,6 +315,16 @@ def test_pairs_of_no_such_arm_are_refused_with_what_would_explain_them(case):
         from_fk(UR10E, q, T)
     message = re.sub(r"off by \S+ mm only", "off by D mm only", str(caught.value))
     assert message.endswith(end)
+
+
+def test_a_long_name_is_cut_in_what_would_explain_the_pairs():
+    name = "w" * 50
+    q_names = [*UR10E.q_names[:5], name]
+    with pytest.raises(InputError) as caught:
+        from_fk(UR10E.replace(q_names=q_names), *ENDS["wrist"][:2])
+    cut = escape_unprintable(name, 40)
+    assert len(cut) == 40
+    assert str(caught.value).endswith(f" as if {cut} = {cut} - 0.0125 wrist_2_joint")
 
 
 @pytest.mark.parametrize(

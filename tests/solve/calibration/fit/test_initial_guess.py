@@ -271,6 +271,13 @@ def test_the_mean_of_poses_stands_in_their_middle_and_is_not_pulled(T, seed, cou
     np.testing.assert_allclose(initial_guess.mean_pose(T[None]), T, rtol=0, atol=EXACT)
 
 
+def test_places_at_the_origin_do_not_pull_the_mean_of_poses_there():
+    T = se3.pose(np.eye(3), [2.0, -1.0, 1.5])
+    Ts = np.tile(T, (20, 1, 1))
+    Ts[3:11] = np.eye(4)
+    np.testing.assert_allclose(initial_guess.mean_pose(Ts), T, rtol=0, atol=EXACT)
+
+
 I3 = np.tile(np.eye(4), (3, 1, 1))
 
 

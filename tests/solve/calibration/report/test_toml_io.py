@@ -285,6 +285,20 @@ def test_what_is_wrong_is_said_with_file_and_key(name, saved):
         load(saved)
 
 
+def test_a_parameter_of_a_frame_that_is_not_there_is_refused(tmp_path):
+    path = tmp_path / "arm.toml"
+    found = case("points unknown")
+    found.save(path)
+    owner = found.parameters[-1].owner
+    assert owner in found.frames
+    text, _, rest = path.read_text().rpartition(f'owner = "{owner}"')
+    path.write_text(f'{text}owner = "nowhere"{rest}')
+    count = len(found.parameters)
+    said = f"parameter {count}: owner: expected a name in frames, got 'nowhere'"
+    with pytest.raises(ModelError, match=said):
+        load(path)
+
+
 def test_a_key_that_is_missing_is_named(saved):
     lines = saved.read_text().splitlines()
     for name in ("success", "loss", "version"):

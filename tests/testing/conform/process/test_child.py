@@ -18,6 +18,7 @@ from benchmarks.subjects import Poekin
 from poekin.errors import InputError
 from poekin.testing.conform import Grade, Limits, conform, search
 from poekin.testing.conform.process.child import POOLS, Child, isolated, obstacle
+from poekin.testing.conform.run import opened
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -190,6 +191,15 @@ def test_of_a_missing_package_it_is_said_that_nothing_was_judged(module):
     (outcome,) = conform(f"{module}:Imports", ["so3_exp"], examples=3).findings
     assert outcome.fault == "ModuleNotFoundError: No module named 'no_such_package'"
     assert outcome.hint == "a package that the subject imports is not installed: nothing was judged"
+
+
+def test_a_named_subject_is_opened_in_a_process_of_its_own_unless_that_is_declined(module):
+    named = f"{module}:Sound"
+    with opened(named, Limits()) as subject:
+        assert subject.title == "Sound"
+        assert module not in sys.modules
+    with opened(named, None):
+        assert module in sys.modules
 
 
 @pytest.mark.parametrize("loaded", ["torch", "no_library"])
