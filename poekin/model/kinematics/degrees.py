@@ -36,9 +36,8 @@ def warn_of_degrees(
         return
     bounds = np.abs(limits).max(axis=1)
     unlimited = np.isinf(bounds)
-    bounds[unlimited] = 0.0
     radians = scale()
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         most = np.where(unlimited, MANY, np.maximum(bounds * radians, TURN))
         beyond = sizes * radians > most
     for k in np.flatnonzero(beyond.reshape(-1, len(names)).any(axis=0))[:1]:
