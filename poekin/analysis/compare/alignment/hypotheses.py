@@ -36,8 +36,8 @@ class Costs(NamedTuple):
     first_beside_link: float = 1.0
     more_beside_link: float = 2.5
     # Base or tool that moved, beside another link or several axes: an axis that is farther off is
-    # likelier, another one that moved is not.
-    frame: float = 1.5
+    # likelier, another one that moved with two zeros is not.
+    frame: float = 1.4
     # Each of several moved axes: likelier than two zeros (3.5), less so than one (2.5).
     axis: float = 3.0
     # Share of its distance that one moved axis counts: a tie-break. Of several it counts in full,
