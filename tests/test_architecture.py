@@ -25,9 +25,9 @@ ROOT = Path(__file__).resolve().parent.parent
 FLOORS = {
     "errors": 0, "checks": 0, "algebra": 0, "results": 0, "version": 0,
     "formulas": 1, "engine": 2, "groups": 3, "model": 4, "formats": 5,
-    "testing": 6, "analysis": 6.5, "solve": 7, "cli": 8,
+    "testing": 6, "analysis": 6.5, "solve": 7, "view": 8, "cli": 9,
 }  # fmt: skip
-FACE = 8  # poekin/__init__.py: the public names; only the command line may use them from inside
+FACE = 9  # poekin/__init__.py: the public names; only the command line may use them from inside
 
 CORE = {"numpy", "numba", "llvmlite", "lxml"}
 
@@ -46,6 +46,8 @@ OPTIONAL: dict[str, str | None] = dict.fromkeys(
         "xacrodoc",
         "xacro",
         "eaik",
+        "k3d",
+        "trimesh",
     )
 )
 OPTIONAL |= {"hypothesis": "poekin/testing/", "typer": "poekin/cli/", "rich": "poekin/cli/"}

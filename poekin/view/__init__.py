@@ -1,0 +1,1 @@
+"""Pages that show an arm: a scene as data, drawn by k3d into one offline page."""

@@ -1,0 +1,1 @@
+"""Meshes of a robot: found, read and reduced to triangles."""

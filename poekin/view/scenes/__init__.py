@@ -1,0 +1,1 @@
+"""Scenes of what poekin knows: arms, comparisons, paths, solutions, calibrations."""
