@@ -6,7 +6,7 @@ import io
 from collections.abc import Callable
 from typing import Any
 
-from ..errors import MissingExtra, escape_unprintable
+from .errors import MissingExtra, escape_unprintable
 
 INK = "#222222"
 PALE = "#9a9a9a"
