@@ -53,7 +53,7 @@ export function quaternionOf(T) {
         [c + g, f + h, squares[2], d - b],
         [h - f, c - g, d - b, squares[3]],
     ];
-    const row = rows[squares.indexOf(Math.max(...squares))];
+    const row = rows[squares.reduce((best, x, k) => (x > squares[best] ? k : best), 0)];
     const length = Math.hypot(...row) * (row[3] < 0 ? -1 : 1);
     return row.map((x) => x / length + 0);
 }
@@ -268,6 +268,7 @@ export function dampedStep(J, e, damping, free, first = 0) {
     const m = J.length / 6;
     const H = new Float64Array(m * m);
     const dq = new Float64Array(m);
+    let largest = 0;
     for (let i = 0; i < m; i++) {
         for (let k = 0; free[i] && k <= i; k++) {
             for (let r = first; free[k] && r < 6; r++) {
@@ -278,6 +279,10 @@ export function dampedStep(J, e, damping, free, first = 0) {
             dq[i] += J[r * m + i] * e[r];
         }
         H[i * m + i] += free[i] ? damping : 1;
+        largest = Math.max(largest, H[i * m + i]);
+    }
+    for (let i = 0; i < m; i++) {
+        H[i * m + i] += 1e-14 * largest; // some ten times its rounding: J^T J may be singular
     }
     solveSymmetric(H, dq, m);
     return dq;
