@@ -9,8 +9,8 @@ export const REACHED = 1e-6; // m and rad
 const SETTLED = 1e-10; // m and rad, at which a solution is not made better
 const STARTS = 100; // other configurations from which a target is tried
 const STEPS = 60;
-const TURN = 0.15; // rad, longest turn of one step of the way to a target
-const PACE = 0.05; // of the scene's size, longest step of it
+const LONGEST_TURN = 0.15; // rad, longest turn of one step of the way to a target
+const LONGEST_STEP = 0.05; // of the scene's size, longest step of it
 
 // Coordinates near q at which the tip is at the target, by damped least squares (Levenberg and
 // Marquardt): {q, reached, error: {position, rotation}}. The damping falls with the error, as Chan
@@ -67,7 +67,7 @@ export function follow(tip, q, target, moved, { size = 1, ...limits }) {
     const to = target.length === 3 ? withPosition(from, target) : target;
     const [dx, dy, dz] = positionOf(to).map((x, r) => x - positionOf(from)[r]);
     const { angle } = axisAngle(product(to, inverse(from)));
-    const count = Math.ceil(Math.min(Math.max(Math.hypot(dx, dy, dz) / (PACE * size), angle / TURN), 200));
+    const count = Math.ceil(Math.min(Math.max(Math.hypot(dx, dy, dz) / (LONGEST_STEP * size), angle / LONGEST_TURN), 200));
     let at = Array.from(q);
     for (let k = 1; k < count; k++) {
         const pose = between(from, to, k / count);
@@ -90,13 +90,13 @@ export function reach(tip, q, target, moved, coordinates, size) {
             });
         }
         const found = solve(tip, start, target, moved, limits);
-        const nearer = distance(found.error) < distance(best.error);
+        const nearer = errorSize(found.error) < errorSize(best.error);
         best = found.reached || nearer ? found : best;
     }
     return best;
 }
 
-function distance({ position, rotation }) {
+function errorSize({ position, rotation }) {
     return Math.hypot(position, rotation);
 }
 
@@ -184,7 +184,7 @@ function followPointer(poekin, held, event) {
 // The tool's origin on the screen, px, and its depth for the camera.
 function handleOnScreen(poekin, canvas) {
     const { Vector3 } = poekin.K.Provider.THREE;
-    const pose = product(poekin.scene.arms[0].base.flat(), poekin.tip(poekin.selectedTip).T);
+    const pose = product(poekin.scene.arms[0].base, poekin.tip(poekin.selectedTip).T);
     const seen = new Vector3(...positionOf(pose)).project(poekin.K.getWorld().camera);
     const box = canvas.getBoundingClientRect();
     const x = box.left + (0.5 + 0.5 * seen.x) * box.width;
@@ -199,6 +199,6 @@ function pointAt(poekin, canvas, event, { off, depth }) {
     const x = (2 * (event.clientX - off[0] - box.left)) / box.width - 1;
     const y = 1 - (2 * (event.clientY - off[1] - box.top)) / box.height;
     const world = new Vector3(x, y, depth).unproject(poekin.K.getWorld().camera);
-    const base = inverse(poekin.scene.arms[0].base.flat());
+    const base = inverse(poekin.scene.arms[0].base);
     return positionOf(product(base, withPosition(base, world.toArray())));
 }
