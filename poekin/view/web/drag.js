@@ -125,6 +125,8 @@ export function enableHandle(poekin) {
     const canvas = renderer.domElement;
     let held = null;
     let asked = null; // the last event that is not drawn yet
+    poekin.target = null;
+    poekin.freeOrientation ??= false;
 
     const end = (event) => {
         if (held && event.pointerId === held.pointer) {

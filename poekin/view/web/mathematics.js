@@ -231,15 +231,16 @@ export function manipulability(J, part, rank, length = 1) {
 }
 
 // The matrix that takes the unit sphere to the manipulability ellipsoid, J_v J_v^T = M M^T, about the
-// tool's origin: M's columns are its half axes, times a factor. "translation" or "rotation".
-export function ellipsoid(T, J, part, factor = 1) {
+// tool's origin: M's columns are its half axes, times a factor, and `least` long where it is flat.
+// Part "translation" or "rotation".
+export function ellipsoid(T, J, part, factor = 1, least = 0) {
     const { s, U } = singularValues(J, ...PARTS[part]);
     const third = cross3(U[0], U[1]); // right-handed: a mirrored surface would be inside out
     const axes = [U[0], U[1], third];
     const M = new Float64Array(16);
     for (let r = 0; r < 3; r++) {
         for (let k = 0; k < 3; k++) {
-            M[4 * r + k] = factor * s[k] * axes[k][r];
+            M[4 * r + k] = Math.max(factor * s[k], least) * axes[k][r];
         }
         M[4 * r + 3] = T[4 * r + 3];
     }

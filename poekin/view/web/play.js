@@ -1,11 +1,27 @@
-// A path that plays, solutions to choose from, and the factor by which differences are enlarged.
+// A path that plays, and the factor by which differences are enlarged.
 //
 // Each class builds its part of the panel, `box`, from the scene; a page has those it has data for.
 import { button, element, fixed, section } from "./elements.js";
 import { alongPath } from "./mathematics.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5];
-const MARKS = { switch: "branch switch", singular: "near singular", limit: "at a limit" };
+const MARK_WORDS = { switch: "branch switch", singular: "near singular", limit: "at a limit" };
+
+// Puts into a place of the panel what the scene has; the badge of the factor goes over the canvas.
+export function enablePlay(poekin, place, canvas) {
+    const { scene } = poekin;
+    poekin.k = 1;
+    if (scene.motion !== null) {
+        poekin.player = new Player(poekin);
+        place.append(poekin.player.box);
+    }
+    if (scene.exaggerated > 1) {
+        const exaggeration = new Exaggeration(poekin);
+        place.append(exaggeration.box);
+        canvas.append(exaggeration.badge);
+    }
+    poekin.on("change", () => leaveChoice(poekin));
+}
 
 // Plays `scene.motion`. A reader who moves a slider stops it; the space bar starts and stops it.
 export class Player {
@@ -40,8 +56,8 @@ export class Player {
     seek(time) {
         this.time = Math.min(Math.max(time, this.first), this.last);
         const { q, times } = this.poekin.scene.motion;
-        this.shown = alongPath(times, q, this.time).q;
-        this.poekin.set(this.shown);
+        this.shown = null;
+        this.poekin.set(alongPath(times, q, this.time).q);
         this.shown = Array.from(this.poekin.q); // within the limits
         this.tell();
     }
@@ -128,7 +144,7 @@ export class Player {
     legend() {
         const { times, marks } = this.poekin.scene.motion;
         const items = marks.map(({ first, kind, text }) => {
-            const go = button(text, `${MARKS[kind]}: go there`, () => this.scrub(times[first]), { class: `mark ${kind}` });
+            const go = button(text, `${MARK_WORDS[kind]}: go there`, () => this.scrub(times[first]), { class: `mark ${kind}` });
             return element("li", {}, go);
         });
         return element("ul", { class: "marks", hidden: marks.length === 0 }, ...items);
@@ -140,47 +156,19 @@ export class Player {
         this.line.value = this.time;
         this.clock.textContent = `${fixed(this.time, 2)} of ${fixed(this.last, 2)} s`;
         const here = marks.filter(({ first, last }) => times[first] <= this.time && this.time <= times[last]);
-        const words = here.map(({ kind, text }) => `${MARKS[kind]}: ${text}`).join("; ");
+        const words = here.map(({ kind, text }) => `${MARK_WORDS[kind]}: ${text}`).join("; ");
         if (this.now.textContent !== words) {
             this.now.textContent = words;
         }
     }
 }
 
-// Configurations of which one is chosen. The chosen one is the arm itself, all others stay ghosts;
-// `poekin.choice` is its number, and null once the arm was moved away from it.
-export class Choices {
-    constructor(poekin) {
-        this.poekin = poekin;
-        this.inputs = poekin.scene.choices.map((_, k) => {
-            const input = element("input", { type: "radio", name: "choice" });
-            input.addEventListener("change", () => this.choose(k));
-            return input;
-        });
-        const rows = poekin.scene.choices.map(({ text }, k) =>
-            element("label", { class: "choice" }, this.inputs[k], element("span", { text })),
-        );
-        this.box = section(`Solutions (${rows.length})`, true, element("div", { class: "choices", role: "radiogroup" }, ...rows));
-        poekin.on("change", () => this.update());
-        this.update();
-    }
-
-    choose(k) {
-        this.poekin.choice = k;
-        this.poekin.set(this.poekin.scene.choices[k].q);
-        this.update();
-        this.poekin.emit("choice", this.poekin.choice);
-    }
-
-    update() {
-        const { choice, q, scene } = this.poekin;
-        if (choice !== null && !isNear(q, scene.choices[choice].q)) {
-            this.poekin.choice = null;
-            this.poekin.emit("choice", null);
-        }
-        this.inputs.forEach((input, k) => {
-            input.checked = k === this.poekin.choice;
-        });
+// Lets go of the choice of `scene.choices` once the arm is moved away from it: its ghost comes back.
+function leaveChoice(poekin) {
+    const { choice, q, scene } = poekin;
+    if (choice !== null && !isNear(q, scene.choices[choice].q)) {
+        poekin.choice = null;
+        poekin.tell("choice");
     }
 }
 
