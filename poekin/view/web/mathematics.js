@@ -254,12 +254,10 @@ export function singularDirection(J, part, rank, length) {
     const [first, last] = PARTS[part];
     const { s, U } = singularValues(J, first, last, part === "rotation" ? 1 : length);
     const worst = Math.max(Math.min(rank, J.length / 6), 1) - 1;
-    const largest = U[worst].reduce((x, y) => (Math.abs(y) > Math.abs(x) ? y : x), 0);
-    const twist = [0, 0, 0, 0, 0, 0];
-    U[worst].forEach((x, k) => {
-        const r = first + k;
-        twist[r] = (largest < 0 ? -x : x) * (r < 3 ? 1 : length) + 0;
-    });
+    const unit = [...Array(first).fill(0), ...U[worst], ...Array(6 - last).fill(0)];
+    const motion = unit.map((x, r) => (r < 3 ? x : x * length));
+    const largest = motion.reduce((x, y) => (Math.abs(y) > Math.abs(x) ? y : x));
+    const twist = motion.map((x) => (largest < 0 ? -x : x) + 0);
     return { twist, smallest: s[worst], ratio: s[0] > 0 ? s[worst] / s[0] : 0 };
 }
 
