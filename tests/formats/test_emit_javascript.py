@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import poekin as pk
 from poekin.errors import InputError
 from poekin.formats import emit
 from tests.formats.emitted import (
@@ -20,11 +21,13 @@ from tests.formats.emitted import (
     arm,
     bound,
     expected,
+    link_bounds,
     module,
     suffix,
     with_name,
 )
 from tests.formats.node import Calls
+from tests.model.test_robot import two_arms
 
 CASES: list[tuple[str, Any]] = [
     (name, frame)
@@ -80,6 +83,19 @@ def test_from_q_it_is_the_chain(calls):
         assert np.abs(got - wanted).max(initial=0.0) <= within
 
 
+def test_of_a_robot_it_is_the_poses_of_all_links(calls):
+    bounds = []
+    for robot in (pk.load("panda"), two_arms(), two_arms().coupled("r = r - 0.5 h")):
+        q = np.random.default_rng(9).uniform(-2, 2, (5, robot.dof))
+        T = np.stack(list(robot.fk(q).values()), axis=1).reshape(5, -1)
+        text = emit.javascript(robot)
+        calls.add(text, "link_poses", [[row] for row in q], T)
+        calls.add(text, "link_poses", [[row, np.ones(T.shape[1])] for row in q], T)
+        bounds += 2 * [np.repeat(link_bounds(robot, q), 16)]
+    for (got, wanted), within in zip(calls.run(), bounds, strict=True):
+        assert (np.abs(got - wanted) <= within).all()
+
+
 def test_results_go_into_the_arrays_given_and_may_overlap_q(calls):
     chain = arm("mixed")
     text = emit.javascript(chain, "body") + (
@@ -106,7 +122,11 @@ def test_a_hostile_name_stays_in_its_comment(name):
     )
     without, plain = (re.sub(r"/\*.*?\*/", "", text, count=1, flags=re.DOTALL) for text in texts)
     assert without == plain
-    assert texts[0].isascii()
+    of_links = emit.javascript(pk.Robot(name, [name], []), origin=name)
+    for text in (texts[0], of_links):
+        assert text.isascii()
+        assert "</" not in text
+        assert "<!--" not in text
 
 
 def test_it_needs_sine_and_cosine_alone_and_says_what_it_costs():
@@ -131,3 +151,5 @@ def test_what_cannot_be_emitted_is_refused():
         emit.javascript(arm("panda"))
     with pytest.raises(InputError, match=r"^origin: expected a text, got 3$"):
         emit.javascript(arm("panda"), "body", origin=3)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"^frame: expected with a Chain only.*; got 'body'$"):
+        emit.javascript(pk.load("panda"), "body")

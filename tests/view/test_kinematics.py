@@ -16,7 +16,7 @@ from poekin.formats.catalogue import NAMES
 from poekin.formats.erd import example_robots
 from poekin.groups import se3, so3
 from poekin.view.kinematics import MOST_TIPS, default_tips, kinematics, page_tips
-from tests.formats.emitted import ARMS, HOSTILE, arm, bound, with_name
+from tests.formats.emitted import ARMS, HOSTILE, arm, bound, link_bounds, with_name
 from tests.formats.node import Calls
 from tests.model.test_robot import two_arms
 
@@ -95,30 +95,6 @@ class Pages:
             float((np.abs(got - wanted) / within).max(initial=0.0))
             for (got, wanted), within in zip(self.calls.run(), self.bounds, strict=True)
         ]
-
-
-def link_bounds(robot: pk.Robot, q: np.ndarray) -> np.ndarray:
-    """Twice what rounding leaves of each link's pose: 8 u R for each product above it and 4 u R for
-    each unit of x, R the lengths on its way (`forward.frame`).
-    """
-    x = {}
-    for leaf in robot.leaves:
-        chain = robot.chain(tip=leaf)
-        own = q[:, [robot.q_names.index(name) for name in chain.q_names]]
-        moved = np.abs(own @ chain.coupling.T + chain.offset).max(axis=0)
-        x.update(zip(chain.joint_names, moved, strict=True))
-    above = {joint.child: joint for joint in robot.joints}
-    bounds = []
-    for link in robot.links:
-        depth, moved, reach = 1, 0.0, 1.0
-        while link in above:
-            joint = above[link]
-            depth += 1
-            moved += x.get(joint.name, 0.0)
-            reach += np.linalg.norm(joint.origin[:3, 3]) + (joint.kind == "prismatic")
-            link = joint.parent
-        bounds.append(2 * 2.0**-53 * (8 * depth + 4 * moved) * reach)
-    return np.array(bounds)
 
 
 def load(model: str) -> pk.Robot:

@@ -28,8 +28,7 @@ def javascript(
     *,
     origin: str = "",
 ) -> str:
-    """JavaScript module with a chain's pose and Jacobian, or the poses of all links of a robot:
-    straight-line, without imports.
+    """JavaScript module of a chain's pose and Jacobian, or of the poses of a robot's links.
 
     Parameters
     ----------
@@ -44,7 +43,7 @@ def javascript(
     Returns
     -------
     text : str
-        ASCII, a module of ECMAScript 2015 that exports fk(q), jacobian_FRAME(q) and
+        ASCII, a straight-line module of ECMAScript 2015 without imports that exports fk(q), jacobian_FRAME(q) and
         fk_jacobian_FRAME(q) of an array q, rad or m: T row by row (16) and J row by row (6 m) as
         Float64Array, the last one both as {T, J}. Of a robot with L links it exports link_poses(q):
         T (16 L), pose after pose in the order of `Robot.links`, as `Robot.fk` has them. Arrays for
