@@ -1,16 +1,22 @@
 """Shapes as closed triangles that face outwards: surfaces of revolution, tubes along a curve, boxes.
+Vertices at sharp edges are there once for each side.
 
 Arrows, cylinders, spheres and capsules are turned about z from a profile; arcs and helices are tubes.
 """
 
 from __future__ import annotations
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..groups.arrays import Array
 from ..model.geometry.local import turned_least
+
+SHARP = 0.5
+"""Cosine of the angle between two faces from which the edge between them is seen."""
 
 SIDES = 16
 """Sides of the polygon that stands for a circle, where nothing else is said."""
@@ -25,7 +31,7 @@ class Surface(NamedTuple):
     """
 
     vertices: Array
-    faces: Array
+    faces: np.ndarray
 
     def scaled(self, factor: float) -> Surface:
         """Surface enlarged from the origin."""
@@ -43,7 +49,37 @@ def merged(*surfaces: Surface) -> Surface:
     return Surface(np.concatenate([s.vertices for s in surfaces]), np.concatenate(faces))
 
 
-def revolved(radii: Array, heights: Array, sides: int = SIDES) -> Surface:
+def creased(surface: Surface) -> Surface:
+    """Closed surface whose vertices at sharp edges are there once for each side, so that a renderer
+    that shades smoothly shades across flat edges only.
+    """
+    faces = surface.faces
+    a, b, c = (surface.vertices[faces[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    owners = np.tile(np.arange(len(faces)), 3)[np.lexsort(edges.T)]
+    first, second = owners.reshape(-1, 2).T
+    flat = np.einsum("ki,ki->k", normals[first], normals[second]) > SHARP
+    patches = _joined(len(faces), first[flat], second[flat])
+    corners = np.stack([faces, np.broadcast_to(patches[:, None], faces.shape)], axis=-1)
+    kept, numbers = np.unique(corners.reshape(-1, 2), axis=0, return_inverse=True)
+    return Surface(surface.vertices[kept[:, 0]], numbers.reshape(-1, 3))
+
+
+def _joined(count: int, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """For each of count items the least of those that it is joined to, by way of others too."""
+    patches = np.arange(count)
+    while True:
+        least = np.minimum(patches[first], patches[second])
+        before = patches.copy()
+        np.minimum.at(patches, first, least)
+        np.minimum.at(patches, second, least)
+        if np.array_equal(patches, before):
+            return patches
+
+
+def revolved(radii: ArrayLike, heights: ArrayLike, sides: int = SIDES) -> Surface:
     """Surface of revolution about z of a profile from below to above.
 
     Parameters
@@ -57,19 +93,21 @@ def revolved(radii: Array, heights: Array, sides: int = SIDES) -> Surface:
     Returns
     -------
     surface : Surface
-        sides (k - 2) + 2 vertices. Its volume is that of the profile turned about z, times
+        Its volume is that of the profile turned about z, times
         sin(2π / sides) / (2π / sides).
     """
     turn = 2 * np.pi / sides * np.arange(sides)
     circle = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     r = np.asarray(radii, float)[1:-1, None, None]
-    h = np.broadcast_to(np.asarray(heights, float)[1:-1, None, None], (len(r), sides, 1))
+    z = np.asarray(heights, float)
+    h = np.broadcast_to(z[1:-1, None, None], (len(r), sides, 1))
     rings = np.concatenate([r * circle, h], axis=-1).reshape(-1, 3)
-    ends = [[0.0, 0.0, heights[0]], [0.0, 0.0, heights[-1]]]
-    return Surface(np.concatenate([rings, ends]), _between_rings(len(r), sides))
+    ends = [[0.0, 0.0, z[0]], [0.0, 0.0, z[-1]]]
+    vertices = np.concatenate([rings, ends])
+    return creased(Surface(vertices, _between_rings(len(r), sides)))
 
 
-def _between_rings(rings: int, sides: int) -> Array:
+def _between_rings(rings: int, sides: int) -> np.ndarray:
     """Faces of a skin over rings of vertices and two end points, which come last."""
     here = np.arange(sides)
     ahead = (here + 1) % sides
@@ -87,7 +125,7 @@ def _between_rings(rings: int, sides: int) -> Array:
     return np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3), *caps])
 
 
-def tube(points: Array, radius: float, sides: int = AROUND) -> Surface:
+def tube(points: ArrayLike, radius: float, sides: int = AROUND) -> Surface:
     """Tube of a radius along a curve through points (n, 3) that does not turn back on itself."""
     points = np.asarray(points, float)
     tangents = np.gradient(points, axis=0)
@@ -101,7 +139,7 @@ def tube(points: Array, radius: float, sides: int = AROUND) -> Surface:
         circle = np.cos(turn) * across + np.sin(turn) * np.cross(tangent, across)
         rings.append(point + radius * circle)
     vertices = np.concatenate([*rings, points[[0, -1]]])
-    return Surface(vertices, _between_rings(len(points), sides))
+    return creased(Surface(vertices, _between_rings(len(points), sides)))
 
 
 def cylinder(radius: float, length: float, sides: int = SIDES) -> Surface:
@@ -123,7 +161,7 @@ def sphere(radius: float = 1.0, sides: int = 32) -> Surface:
     return revolved(radii, -radius * np.cos(turn), sides)
 
 
-def capsule(start: Array, end: Array, radius: float, sides: int = SIDES) -> Surface:
+def capsule(start: ArrayLike, end: ArrayLike, radius: float, sides: int = SIDES) -> Surface:
     """All points within a radius of the segment between two points; a sphere where they are one."""
     start = np.asarray(start, float)
     way = np.asarray(end, float) - start
@@ -141,14 +179,14 @@ def capsule(start: Array, end: Array, radius: float, sides: int = SIDES) -> Surf
     return revolved(radii, heights, sides).placed(start, z)
 
 
-def box(sizes: Array) -> Surface:
+def box(sizes: ArrayLike) -> Surface:
     """Box of sizes (3,) along x, y and z, its middle at the origin."""
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     faces = [
         [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
         [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3],
     ]  # fmt: skip
-    return Surface(0.5 * corners * np.asarray(sizes, float), np.array(faces))
+    return creased(Surface(0.5 * corners * np.asarray(sizes, float), np.array(faces)))
 
 
 def arrow(
@@ -209,6 +247,11 @@ def helix_points(radius: float, angle: float, rise: float) -> Array:
 
 def frame_axes(pose: Array, length: float) -> tuple[Surface, Surface, Surface]:
     """Arrows along x, y and z of a frame at a pose (4, 4), m."""
-    one = arrow(length, 0.035 * length, 0.09 * length, 0.25 * length, AROUND)
+    one = _axis_arrow().scaled(length)
     x, y, z = (one.placed(pose[:3, 3], pose[:3, k]) for k in range(3))
     return x, y, z
+
+
+@cache
+def _axis_arrow() -> Surface:
+    return arrow(1.0, 0.035, 0.09, 0.25, AROUND)

@@ -29,13 +29,16 @@ def polygon(sides: int) -> float:
 
 
 def assert_closed(surface: Surface) -> None:
-    """Each edge is in two faces, once in either direction, and each vertex is used."""
-    f = surface.faces
+    """Each edge is in two faces, once in either direction, and each vertex is used: vertices of one
+    place, to 1e-9 of the whole, counted as one.
+    """
+    assert np.array_equal(np.unique(surface.faces), np.arange(len(surface.vertices)))
+    grid = np.round(surface.vertices / (1e-9 * np.ptp(surface.vertices, axis=0).max()))
+    f = np.unique(grid, axis=0, return_inverse=True)[1].ravel()[surface.faces]
     edges = np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]])
     seen = {tuple(edge) for edge in edges.tolist()}
     assert len(seen) == len(edges)
     assert seen == {(b, a) for a, b in seen}
-    assert np.array_equal(np.unique(f), np.arange(len(surface.vertices)))
 
 
 ALL = {
@@ -151,3 +154,9 @@ def test_the_axes_of_a_frame_are_its_columns():
     for k, surface in enumerate(shapes.frame_axes(pose, 0.5)):
         reached = surface.vertices[-1]
         np.testing.assert_allclose(reached, pose[:3, 3] + 0.5 * pose[:3, k], atol=1e-15)
+
+
+def test_only_sharp_edges_are_split():
+    assert len(shapes.box([1, 2, 3]).vertices) == 24
+    assert len(shapes.cylinder(1.0, 1.0, 16).vertices) == 4 * 16 + 2
+    assert len(shapes.sphere(1.0, 16).vertices) == 7 * 16 + 2
