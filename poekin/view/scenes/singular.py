@@ -1,0 +1,66 @@
+"""Scene of a singularity: the arm where it was asked, and the motion that is lost there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ...analysis.dexterity.messages import motion_words
+from ...analysis.dexterity.singularity import Singularity
+from ...groups.arrays import Array
+from ..nodes import Hung, Label, Node, Role, Triangles
+from ..scene import Scene
+from ..shapes import arrow
+from .arm import arm_scene
+
+LENGTH = 0.25
+"""Length of an arrow as a share of the arm's size."""
+SMALL = 1e-3
+"""Share of a unit twist below which a part of it is not drawn."""
+
+
+def singularity_scene(found: Singularity) -> Scene:
+    """Scene of a singularity.
+
+    Parameters
+    ----------
+    found : Singularity
+        Result of `singularity`.
+
+    Returns
+    -------
+    scene : Scene
+        The arm at `found.q`, with the lost motions, or the one that would be lost first, as arrows
+        at the tip: along the translation, and along the axis of the rotation.
+    """
+    scene = arm_scene(found.chain, q=found.q, meshes=False)
+    tip = found.chain.fk(found.q)[:3, 3]
+    lost = found.singular_subspace if found.singular else found.singular_direction[None]
+    arrows = [node for twist in lost for node in _arrows(twist, found.length, tip, scene.size)]
+    kept = [node for node in scene.nodes if node.hung.rule != "singular"]
+    return replace(
+        scene,
+        title=f"Singularity of {found.chain.tip} in {found.chain.base}",
+        words=(found.summary(),),
+        nodes=(*kept, *arrows),
+        shown=scene.shown | {"singular"},
+    )
+
+
+def _arrows(twist: Array, length: float, tip: Array, size: float) -> Iterator[Node]:
+    """Arrows of a unit twist at the tip: its translation by length, and its rotation."""
+    words = motion_words(twist)
+    parts: tuple[tuple[Array, Role, str], ...] = (
+        (twist[3:] / length, "marked", "lost translation"),
+        (twist[:3], "angular", "lost rotation"),
+    )
+    for part, role, label in parts:
+        share = float(np.linalg.norm(part))
+        if share < SMALL:
+            continue
+        hung = Hung("singular", role, name=f"{label}: {words}")
+        way = part / share
+        yield Triangles(hung, *arrow().scaled(LENGTH * size * share).placed(tip, way))
+        yield Label(hung, tip + 1.1 * LENGTH * size * share * way, label)
