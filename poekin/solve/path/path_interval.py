@@ -10,7 +10,6 @@ import numpy as np
 
 from ...groups.arrays import Array
 
-
 EventKind = Literal["missed", "switch", "limit", "speed", "acceleration", "singular"]
 
 

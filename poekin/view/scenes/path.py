@@ -9,11 +9,12 @@ import numpy as np
 
 from ...errors import InputError
 from ...groups.arrays import Array
+from ...model.robot import Robot
 from ...solve.path.path_result import PathResult
-from ..nodes import Hung, Label, Node, Polyline, Triangles
+from ..nodes import Label, Node, Polyline, Triangles
 from ..scene import PathMark, Scene, SceneMotion
 from ..shapes import sphere
-from .arm import arm_scene
+from .stage import Stage, make_stage
 from .targets import pose_nodes
 
 SECONDS = 10.0
@@ -26,13 +27,15 @@ MOST_WORDS = 12
 """Sentences of the report that the page holds above the rest, which its path has."""
 
 
-def path_scene(path: PathResult) -> Scene:
+def path_scene(path: PathResult, robot: Robot | None = None) -> Scene:
     """Scene of a path that was followed.
 
     Parameters
     ----------
     path : PathResult
         Result of `follow`.
+    robot : Robot, optional
+        The robot of the arm, to be drawn in its place.
 
     Returns
     -------
@@ -49,32 +52,30 @@ def path_scene(path: PathResult) -> Scene:
     known = np.flatnonzero(np.isfinite(path.q).all(axis=1))
     if not len(known):
         raise InputError("view: a path with at least one finite pose expected")
-    scene = arm_scene(path.chain, q=path.q[known[0]], meshes=False)
+    stage = make_stage(path.chain, path.q[known[0]], robot)
     points = np.full((len(path.q), 3), np.nan)
     points[known] = path.chain.fk(path.q[known])[:, :3, 3]
     targets = path.solution.target
     frames: list[Node] = []
     if targets is not None:
         thinned = known[_evenly(len(known), FRAMES)]
-        frames = pose_nodes(targets[thinned], 0.05 * scene.size, "path", "pose")
-    lines = path.summary().splitlines()
-    return replace(
-        scene,
-        title=f"Path of {path.chain.tip} in {path.chain.base}",
-        words=(*lines[:MOST_WORDS], *scene.words),
-        nodes=(*scene.nodes, *_way(path, points, scene.size), *frames),
-        shown=scene.shown | {"path"},
-        motion=_motion(path, known),
+        frames = pose_nodes(stage, targets[thinned], 0.05 * stage.size, "pose")
+    scene = stage.with_result(
+        f"Path of {path.chain.tip} in {path.chain.base}",
+        path.summary().splitlines()[:MOST_WORDS],
+        [*_way(path, points, stage), *frames],
+        "path",
     )
+    return replace(scene, motion=_motion(path, known, stage))
 
 
-def _way(path: PathResult, points: Array, size: float) -> Iterator[Node]:
+def _way(path: PathResult, points: Array, stage: Stage) -> Iterator[Node]:
     """The way of the tip, without what is no number, and what is marked on it."""
     reached = np.isfinite(points).all(axis=1)
-    width = 0.005 * size
-    yield Polyline(Hung("path", "path", name="way of the tip"), points[reached], width)
+    width = 0.005 * stage.size
+    yield Polyline(stage.hung("path", "path", "way of the tip"), points[reached], width)
     for event in path.events:
-        hung = Hung("path", "marked", name=event.text)
+        hung = stage.hung("path", "marked", event.text)
         stretch = points[event.first : event.last + 1]
         stretch = stretch[np.isfinite(stretch).all(axis=1)]
         if not len(stretch):
@@ -85,10 +86,11 @@ def _way(path: PathResult, points: Array, size: float) -> Iterator[Node]:
             ball = sphere(2.5 * width, 16)
             yield Triangles(hung, ball.vertices + stretch[0], ball.faces)
         if event.kind == "switch":
-            yield Label(hung, stretch[0] + 0.03 * size, f"branch changes before pose {event.first}")
+            words = f"branch changes before pose {event.first}"
+            yield Label(hung, stretch[0] + 0.03 * stage.size, words)
 
 
-def _motion(path: PathResult, known: np.ndarray) -> SceneMotion:
+def _motion(path: PathResult, known: np.ndarray, stage: Stage) -> SceneMotion:
     """Joints over time, every k-th row and those beside a change of branch; marks by these rows."""
     switches = np.array(path.branch_switches, int)
     wanted = np.concatenate([known[_evenly(len(known), ROWS)], switches, switches - 1])
@@ -100,7 +102,7 @@ def _motion(path: PathResult, known: np.ndarray) -> SceneMotion:
         PathMark(*_between(rows, event.first, event.last), event.kind, event.text)
         for event in path.events
     ]
-    return SceneMotion(path.q[rows], times[rows], tuple(marks))
+    return SceneMotion(stage.configurations(path.q[rows]), times[rows], tuple(marks))
 
 
 def _between(rows: np.ndarray, first: int, last: int) -> tuple[int, int]:

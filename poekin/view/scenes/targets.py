@@ -7,35 +7,37 @@ from dataclasses import replace
 import numpy as np
 
 from ...analysis.amounts import amount
-from ...errors import InputError, quote
+from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.robot import Robot
 from ...solve.ik.solution import Solution
-from ..nodes import Hung, Label, Layer, Node, Triangles
+from ..nodes import Label, Node, Triangles
 from ..scene import Scene, SceneChoice
 from ..shapes import frame_axes
-from .arm import arm_scene
 from .arm_parts.axes import XYZ
+from .stage import Stage, make_stage
 
 MOST = 32
 """Configurations that a reader can choose."""
 
 
-def pose_nodes(poses: Array, length: float, layer: Layer, name: str) -> list[Node]:
-    """Frames at poses (n, 4, 4) in the world, m, as arrows of a length."""
+def pose_nodes(stage: Stage, poses: Array, length: float, name: str) -> list[Node]:
+    """Frames at poses (n, 4, 4) in the chain's base, m, as arrows of a length."""
+    names = [name] if len(poses) == 1 else [f"{name} {k}" for k in range(len(poses))]
     return [
-        Triangles(Hung(layer, role, name=f"{name} {k}" if len(poses) > 1 else name), *axis)
-        for k, pose in enumerate(poses)
+        Triangles(stage.hung("path", role, words), *axis)
+        for words, pose in zip(names, poses, strict=True)
         for role, axis in zip(XYZ, frame_axes(pose, length), strict=True)
     ]
 
 
-def target_nodes(poses: Array, size: float) -> list[Node]:
+def target_nodes(stage: Stage, poses: Array) -> list[Node]:
     """Frames at targets, the word "target" beside a single one."""
-    nodes = pose_nodes(poses, 0.1 * size, "path", "target")
+    nodes = pose_nodes(stage, poses, 0.1 * stage.size, "target")
     if len(poses) == 1:
-        place = poses[0, :3, 3] + 0.03 * size
-        nodes.append(Label(Hung("path", "path", name="target"), place, "target"))
+        place = poses[0, :3, 3] + 0.03 * stage.size
+        nodes.append(Label(stage.hung("path", "path", "target"), place, "target"))
     return nodes
 
 
@@ -52,13 +54,15 @@ def chain_kept(chain: Chain | None, what: str) -> Chain:
     return chain
 
 
-def solution_scene(found: Solution) -> Scene:
+def solution_scene(found: Solution, robot: Robot | None = None) -> Scene:
     """Scene of `ik`: the arm at the solution, and the target.
 
     Parameters
     ----------
     found : Solution
         Result of `ik`.
+    robot : Robot, optional
+        The robot of the arm, to be drawn in its place.
 
     Returns
     -------
@@ -77,20 +81,20 @@ def solution_scene(found: Solution) -> Scene:
     known = np.flatnonzero(np.isfinite(q).all(axis=1) & np.isfinite(poses).all(axis=(1, 2)))
     if not len(known):
         raise InputError(f"view: expected a finite target, got {found.summary()}")
-    scene = arm_scene(chain, q=q[known[0]], meshes=False)
+    stage = make_stage(chain, q[known[0]], robot)
     shown = known[:MOST]
-    choices: tuple[SceneChoice, ...] = ()
-    words = [found.summary()]
-    if found.success.ndim:
-        flat = zip(shown.tolist(), found.reason.reshape(-1)[shown], strict=True)
-        choices = tuple(SceneChoice(q[k], f"target {k}: {reason}") for k, reason in flat)
-        if len(known) > MOST:
-            words.append(f"The first {MOST} of {len(known)} targets are shown.")
-    return replace(
-        scene,
-        title=f"Inverse kinematics of {quote(chain.tip)} in {quote(chain.base)}",
-        words=(*words, *scene.words),
-        nodes=(*scene.nodes, *target_nodes(poses[shown], scene.size)),
-        shown=scene.shown | {"path"},
-        choices=choices,
+    scene = stage.with_result(
+        f"Inverse kinematics of {chain.tip} in {chain.base}",
+        [found.summary()],
+        target_nodes(stage, poses[shown]),
+        "path",
     )
+    if not found.success.ndim:
+        return scene
+    if len(known) > MOST:
+        more = f"The first {MOST} of {len(known)} targets are shown."
+        scene = replace(scene, words=(scene.words[0], more, *scene.words[1:]))
+    rows = stage.configurations(q[shown])
+    flat = zip(shown.tolist(), rows, found.reason.reshape(-1)[shown], strict=True)
+    choices = tuple(SceneChoice(row, f"target {k}: {reason}") for k, row, reason in flat)
+    return replace(scene, choices=choices)
