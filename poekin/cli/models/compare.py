@@ -8,7 +8,7 @@ from typing import Annotated
 from typer import Argument, Exit, Option
 
 from ...analysis.compare.compare import compare
-from ...analysis.compare.comparison import Comparison, JointComparison, Outcome
+from ...analysis.compare.comparison import Comparison, Outcome
 from ...analysis.compare.differences.conventions import (
     BUT_NAMES,
     CONVENTIONS,
@@ -16,6 +16,7 @@ from ...analysis.compare.differences.conventions import (
     checked,
 )
 from ...analysis.compare.differences.ends import Chosen, Remedy, remedies
+from ...analysis.compare.joint_table import HEADS, joint_row
 from ...checks import positive
 from ...errors import InputError, join_names
 from ...model.robot import Robot
@@ -24,7 +25,7 @@ from ..formats.units import Deg, Mm
 from ..kinematics.arm import FILE_HELP, Base, Json, Seed, Tip
 from ..kinematics.poses import Quaternion
 from ..model import models
-from ..output import as_json, name, number, path_text, say, table
+from ..output import as_json, name, path_text, say, table
 
 DEFAULT = ",".join(BUT_NAMES)
 EXIT: dict[Outcome, int] = {"same": 0, "differ": 1, "conventions": 3}
@@ -157,11 +158,9 @@ def _show(
 ) -> None:
     ends = [name(end) for arm in (a, b) for end in (arm.chain.base, arm.chain.tip)]
     say("A: {} → {}; B: {} → {}\n".format(*ends))
-    rows = [_joint_row(joint, result) for joint in result.joints]
+    rows = [joint_row(joint, result) for joint in result.joints]
     if rows:
-        lengths = ("angle (deg)", "normal (mm)", "at the arm (mm)")
-        heads = ("", "joint", "kind", "axis", *lengths, "zero", "direction", "limits")
-        table(heads, rows, left=4)
+        table(HEADS, rows, left=4)
     for remedy in remedies(result, a, b):
         say(f"Remedy: {_remedy_words(remedy)}")
     # The outcome comes last.
@@ -174,33 +173,3 @@ def _remedy_words(remedy: Remedy) -> str:
     if remedy.model == "b":
         option += "-b"
     return f"model {remedy.model}: {remedy.reason}: {option} {name(remedy.link)}"
-
-
-def _joint_row(joint: JointComparison, result: Comparison) -> tuple[object, ...]:
-    slides = joint.unit == "m"
-    coordinate = _mm if slides else _deg
-    tol = result.tol_position if slides else result.tol_rotation
-    return (
-        joint.number,
-        " / ".join(dict.fromkeys((joint.name_a, joint.name_b))),
-        " / ".join(dict.fromkeys((joint.kind_a, joint.kind_b))),
-        "DIFFERS" if joint.axis_differs else "same",
-        _deg(joint.angle, result.tol_rotation),
-        _mm(joint.normal, result.tol_position),
-        _mm(joint.shift, result.tol_position),
-        f"{coordinate(joint.zero_offset, tol)} {'mm' if slides else 'deg'}",
-        "flipped" if joint.reversed else "same",
-        " ".join(coordinate(bound, tol) for bound in joint.limits),
-    )
-
-
-def _mm(value: float | None, tol: float) -> str:
-    """A length in mm to four digits, 0 far below the tolerance; nothing for None."""
-    if value is None:
-        return ""
-    return number(1e3 * value * (abs(value) >= 1e-6 * tol), 4)
-
-
-def _deg(value: float, tol: float) -> str:
-    """An angle in degrees to four digits, 0 far below the tolerance."""
-    return number(math.degrees(value) * (abs(value) >= 1e-6 * tol), 4)
