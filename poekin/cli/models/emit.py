@@ -44,10 +44,7 @@ Output = Annotated[
         help="A directory for the files (made where there is none); or a .py for python, a .js or .mjs for javascript.",
     ),
 ]
-Frame = Annotated[
-    str | None,
-    Option("--frame", help=f"{FRAME_HELP} Default: hybrid."),
-]
+Frame = Annotated[str, Option("--frame", help=FRAME_HELP)]
 Single = Annotated[bool, Option("--float/--double", help="C only: the type of its numbers.")]
 Name = Annotated[
     str | None,
@@ -58,7 +55,7 @@ Name = Annotated[
 ]
 AllLinks = Annotated[
     bool,
-    Option("--all-links", help="JavaScript only: the poses of all links, and no Jacobian."),
+    Option("--all-links", help="JavaScript only: the poses of all links, no Jacobian."),
 ]
 Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
 Idealise = Annotated[
@@ -73,7 +70,7 @@ def command(
     output: Output,
     tip: Tip = None,
     base: Base = None,
-    frame: Frame = None,
+    frame: Frame = "hybrid",
     all_links: AllLinks = False,
     single: Single = False,
     name: Name = None,
@@ -95,7 +92,7 @@ def command(
     name = robot.name if name is None else name
     ideal = None
     if all_links:
-        of_chain = {"--tip": tip, "--base": base, "--frame": frame, "--idealise": idealise}
+        of_chain = {"--tip": tip, "--base": base, "--idealise": idealise}
         _check_all_links(language, of_chain)
         texts = {_file_name(name, language): emit.javascript(robot, origin=origin)}
     else:
@@ -104,8 +101,7 @@ def command(
             ideal = chain.idealised(idealise)
             chain = ideal.chain
             origin += f", idealised within {idealise:g} (rad and m)"
-        named = parse_frame(frame or "hybrid", FRAMES)
-        texts = _texts(chain, language, named, name, single, origin)
+        texts = _texts(chain, language, parse_frame(frame, FRAMES), name, single, origin)
     places, directory = _places(output, language, texts)
     array_files.check_apart(places, model=file)
     _write(places, directory, force)

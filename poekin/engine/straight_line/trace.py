@@ -1,8 +1,9 @@
 """A scalar that records: run a formula on it and get the expression graph of what it computes.
 
 A product with 0 or +-1 and a sum with 0 are never recorded (`FOLD_TOLERANCE` says how near), equal nodes
-are one node, signs stand beside nodes and cost nothing, and constants that meet are multiplied or
-added beforehand. What no output needs is left out when the graph is read.
+are one node, signs stand beside nodes and cost nothing, and constants that meet are multiplied
+beforehand. A constant that is added and taken away again leaves no trace: 1 - (1 - x) is x. What no
+output needs is left out when the graph is read.
 """
 
 from __future__ import annotations
@@ -92,8 +93,8 @@ class Graph:
             second = Traced(self, node.second, x.sign * node.sign)
             for rest, other in ((first, second), (second, first)):
                 constant = self.nodes[other.number]
-                if constant.kind == "constant":
-                    return rest + (other.sign * constant.first + value)
+                if constant.kind == "constant" and other.sign * constant.first == -value:
+                    return rest
         if abs(value) <= FOLD_TOLERANCE:
             return x
         return self.sum(x, self.constant(value))

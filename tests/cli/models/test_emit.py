@@ -159,7 +159,7 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
             "--all-links: expected together with --lang javascript only",
         ),
         (
-            ("--lang", "javascript", "--all-links", "--frame", "body"),
+            ("--lang", "javascript", "--all-links"),
             "--all-links: expected without --tip, which is of one chain",
         ),
         (

@@ -75,13 +75,18 @@ def test_constants_that_meet_are_multiplied_beforehand():
     assert cost(graph, 2.0 * (0.5 * x)) == (0, 0)
 
 
-def test_constants_that_meet_are_added_beforehand():
+def test_a_constant_that_is_added_and_taken_away_leaves_no_trace():
     graph, x, y, _ = traced()
-    assert cost(graph, 1.0 - (1.0 - x)) == (0, 0)
-    assert cost(graph, 2.0 + (0.5 - x * y), -(x * y - 2.5)) == (1, 1)
-    assert (2.0 - (2.0 - x)).number == x.number
-    kept: Any = 3.0 + 2.0 * (1.0 + x)  # the product stands between them
-    assert cost(graph, kept) == (1, 2)
+    both = x * y
+    cases: Any = [
+        (1.0 - (1.0 - x), x),
+        (-1.0 - (x - 1.0), -x),
+        ((both + 2.5) - 2.5, both),
+        (-(0.5 - both) + 0.5, both),
+    ]
+    for found, wanted in cases:
+        assert (found.number, found.sign) == (wanted.number, wanted.sign)
+    assert cost(graph, 1.0 + (1.0 - x), 1.0 - (1.5 - x)) == (0, 4)
 
 
 def test_a_sum_of_coordinates_takes_what_each_counts():
