@@ -49,10 +49,14 @@ def label_nodes(arm: ArmGeometry, radii: Array) -> list[Node]:
 
 
 def frame_nodes(arm: ArmGeometry, size: float) -> list[Node]:
-    """Frames as three arrows; those of the base and the tips are larger and have their names."""
+    """Frames as three arrows; those of the base and the tips have their names, and are larger where
+    they are few.
+    """
     nodes: list[Node] = []
+    ends = sum(frame.end for frame in arm.frames)
+    largest = max(0.12 * (2.0 / max(ends, 2)) ** 0.5, 0.045)
     for frame in arm.frames:
-        length = 0.12 * size if frame.end else 0.06 * size
+        length = (largest if frame.end else 0.045) * size
         for role, axis in zip(XYZ, frame_axes(frame.pose, length), strict=True):
             nodes.append(Triangles(Hung("frames", role, frame.link, name=frame.name), *axis))
         if frame.end:
