@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...checks import whole
-from ...errors import InputError, UnknownName, join_names, quote, suggest
+from ...errors import InputError, join_names, quote
 from ...formats.visuals.visual import LeftOut
 from ...groups.arrays import Array
 from ...model.chain import Chain
@@ -93,7 +93,7 @@ def arm_scene(
     if meshes and isinstance(model, Robot):
         bodies, left_out = mesh_nodes(model)
     size = arm_size(arm, opening, bodies)
-    nodes = [*bodies, *arm_nodes(arm, opening, size)]
+    nodes = [*bodies, *arm_nodes(arm, opening, size, bool(bodies))]
     if bodies:
         nodes += stand_ins(arm, left_out, bodies, size)
     moved = [chain for chain in _chains(model, tips[:1]) if chain.dof]
@@ -102,8 +102,9 @@ def arm_scene(
     if cloud:
         nodes += [reach_cloud(chain, arm.links.index(chain.base), cloud, size) for chain in moved]
     words = [*_model_words(model, arm), *_beyond(arm, opening), *left_out_words(left_out)]
-    for chain, first in zip(moved, tips, strict=False):
-        words += singular_words(chain, opening[list(first.coordinates)])
+    values = {slider.name: x for slider, x in zip(arm.sliders, opening, strict=True)}
+    for chain in moved:
+        words += singular_words(chain, np.array([values[name] for name in chain.q_names]))
     shown: set[Layer] = {"axes", "frames", "meshes" if bodies else "skeleton"}
     return Scene(
         title=arm.name,
@@ -140,14 +141,16 @@ def _bounds(points: Array) -> Array:
     return np.stack([points.min(axis=0), points.max(axis=0)], axis=-1)
 
 
-def arm_nodes(arm: ArmGeometry, q: Array, size: float) -> list[Node]:
-    """Skeleton, axes, labels and frames, in sizes for the configuration q."""
+def arm_nodes(arm: ArmGeometry, q: Array, size: float, covered: bool = False) -> list[Node]:
+    """Skeleton, axes, labels and frames, in sizes for the configuration q; larger where bodies cover
+    them.
+    """
     radii = glyph_radii(arm, q, size)
     return [
         *skeleton_nodes(arm, radii, size),
-        *axis_nodes(arm, radii, size),
+        *axis_nodes(arm, radii, size, covered),
         *label_nodes(arm, radii),
-        *frame_nodes(arm, size),
+        *frame_nodes(arm, size, covered),
     ]
 
 
@@ -180,8 +183,6 @@ def _asked(model: Model, tip: str | None) -> tuple[str, ...]:
         return ()
     if isinstance(model, Chain):
         raise InputError(f"tip: a chain has its own, {quote(model.tip)}; got {quote(tip)}")
-    if tip not in model.links:
-        raise UnknownName(f"tip: no link {quote(tip)}; {suggest(tip, model.links)}")
     return (tip,)
 
 
