@@ -254,4 +254,4 @@ def frame_axes(pose: Array, length: float) -> tuple[Surface, Surface, Surface]:
 
 @cache
 def _axis_arrow() -> Surface:
-    return arrow(1.0, 0.035, 0.09, 0.25, AROUND)
+    return arrow(1.0, 0.03, 0.08, 0.25, AROUND)

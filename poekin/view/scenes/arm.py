@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...checks import whole
-from ...errors import InputError, UnknownName, join_names, quote, suggest
+from ...errors import InputError, join_names, quote
+from ...formats.visuals.visual import LeftOut
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.joint import FREE
@@ -17,11 +18,13 @@ from ...model.kinematics.arm import chain_of
 from ...model.kinematics.compiled import CompiledChain
 from ...model.robot import Robot
 from ..kinematics import kinematics, page_tips
-from ..nodes import Layer, Node
+from ..meshes.mesh_nodes import mesh_nodes
+from ..nodes import Layer, Node, Triangles
 from ..scene import Scene, SceneArm, SceneTip
 from .arm_parts.axes import axis_nodes, frame_nodes, label_nodes, screw_table
 from .arm_parts.geometry import ArmGeometry, opening_q
 from .arm_parts.jacobian import jacobian_nodes, singular_words
+from .arm_parts.missing import left_out_words, stand_ins
 from .arm_parts.of_chain import chain_geometry
 from .arm_parts.of_robot import chain_to, robot_geometry
 from .arm_parts.reach import reach_cloud
@@ -54,7 +57,8 @@ def arm_scene(
     tip : str, optional
         Link whose Jacobian is shown first, of a robot; the page offers the others beside it.
     meshes : bool, default True
-        Whether the robot's visual meshes are drawn where they are found.
+        Whether the shapes of a robot's links are drawn, where they are found; links whose are not
+        are drawn as bones, and named.
     cloud : int, default 0
         Number of random configurations whose tip positions are drawn as a cloud.
 
@@ -69,6 +73,8 @@ def arm_scene(
         If the tip is no link, or q names a coordinate that the model has not.
     ShapeError
         If q has another number of coordinates.
+    MissingExtra
+        If the robot has meshes, and trimesh or pycollada is not installed.
     InputError
         If q is not finite, a tip is named for a chain, or the model is none.
 
@@ -82,24 +88,31 @@ def arm_scene(
     tips = page_tips(model, _asked(model, tip))
     arm = arm_geometry(model, tips)
     opening = opening_q(arm.sliders, q)
-    bodies: list[Node] = []
-    size = arm_size(arm, opening)
-    nodes = [*bodies, *arm_nodes(arm, opening, size)]
+    bodies: tuple[Triangles, ...] = ()
+    left_out: tuple[LeftOut, ...] = ()
+    if meshes and isinstance(model, Robot):
+        bodies, left_out = mesh_nodes(model)
+    size = arm_size(arm, opening, bodies)
+    nodes = [*bodies, *arm_nodes(arm, opening, size, bool(bodies))]
+    if bodies:
+        nodes += stand_ins(arm, left_out, bodies, size)
     moved = [chain for chain in _chains(model, tips[:1]) if chain.dof]
     if moved:
         nodes += jacobian_nodes(max(len(tip.coordinates) for tip in tips), size)
     if cloud:
         nodes += [reach_cloud(chain, arm.links.index(chain.base), cloud, size) for chain in moved]
-    words = [*_model_words(model, arm), *_beyond(arm, opening)]
-    for chain, first in zip(moved, tips, strict=False):
-        words += singular_words(chain, opening[list(first.coordinates)])
+    words = [*_model_words(model, arm), *_beyond(arm, opening), *left_out_words(left_out)]
+    values = {slider.name: x for slider, x in zip(arm.sliders, opening, strict=True)}
+    for chain in moved:
+        words += singular_words(chain, np.array([values[name] for name in chain.q_names]))
+    shown: set[Layer] = {"axes", "frames", "meshes" if bodies else "skeleton"}
     return Scene(
         title=arm.name,
         words=tuple(words),
         arms=(scene_arm(model, arm, tips, opening),),
         q=opening,
         nodes=tuple(nodes),
-        shown=frozenset(_shown(bodies)),
+        shown=frozenset(shown),
         size=size,
         tables=(screw_table(arm),),
     )
@@ -112,20 +125,32 @@ def arm_geometry(model: Model, tips: Iterable[SceneTip]) -> ArmGeometry:
     return chain_geometry(model)
 
 
-def arm_size(arm: ArmGeometry, q: Array) -> float:
-    """Diagonal of the box around the arm's points at q, m; 1 m where these are one point."""
-    diagonal = float(np.linalg.norm(np.ptp(arm.points(q), axis=0)))
+def arm_size(arm: ArmGeometry, q: Array, bodies: Iterable[Triangles] = ()) -> float:
+    """Diagonal of the box around the arm's points and bodies at q, m; 1 m where these are one point."""
+    T = arm.poses(q)
+    points = [arm.points(q)]
+    for body in bodies:
+        corners = np.stack(np.meshgrid(*_bounds(body.vertices)), axis=-1).reshape(-1, 3)
+        points.append(corners @ T[body.hung.link, :3, :3].T + T[body.hung.link, :3, 3])
+    diagonal = float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
     return diagonal if diagonal > POINT else 1.0
 
 
-def arm_nodes(arm: ArmGeometry, q: Array, size: float) -> list[Node]:
-    """Skeleton, axes, labels and frames, in sizes for the configuration q."""
+def _bounds(points: Array) -> Array:
+    """Least and greatest coordinates (3, 2) of points."""
+    return np.stack([points.min(axis=0), points.max(axis=0)], axis=-1)
+
+
+def arm_nodes(arm: ArmGeometry, q: Array, size: float, covered: bool = False) -> list[Node]:
+    """Skeleton, axes, labels and frames, in sizes for the configuration q; larger where bodies cover
+    them.
+    """
     radii = glyph_radii(arm, q, size)
     return [
         *skeleton_nodes(arm, radii, size),
-        *axis_nodes(arm, radii, size),
+        *axis_nodes(arm, radii, size, covered),
         *label_nodes(arm, radii),
-        *frame_nodes(arm, size),
+        *frame_nodes(arm, size, covered),
     ]
 
 
@@ -158,8 +183,6 @@ def _asked(model: Model, tip: str | None) -> tuple[str, ...]:
         return ()
     if isinstance(model, Chain):
         raise InputError(f"tip: a chain has its own, {quote(model.tip)}; got {quote(tip)}")
-    if tip not in model.links:
-        raise UnknownName(f"tip: no link {quote(tip)}; {suggest(tip, model.links)}")
     return (tip,)
 
 
@@ -167,11 +190,6 @@ def _chains(model: Model, tips: Iterable[SceneTip]) -> list[Chain]:
     if isinstance(model, Chain):
         return [model]
     return [chain_to(model, tip.name) for tip in tips]
-
-
-def _shown(bodies: list[Node]) -> set[Layer]:
-    """Layers that are on when the page opens: without bodies, the skeleton."""
-    return {"axes", "frames", "meshes" if bodies else "skeleton"}
 
 
 def _model_words(model: Model, arm: ArmGeometry) -> list[str]:

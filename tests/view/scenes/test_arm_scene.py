@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from poekin.formats.visuals.visual import LeftOut
 
 import poekin as pk
 from poekin.analysis.axis_lines import uncoupled_at_zero
@@ -20,6 +21,7 @@ from poekin.view.scene import Scene, Slider
 from poekin.view.scenes.arm import arm_geometry, arm_nodes, arm_scene, arm_size
 from poekin.view.scenes.arm_parts.axes import axis_nodes
 from poekin.view.scenes.arm_parts.geometry import ArmGeometry, opening_q
+from poekin.view.scenes.arm_parts.missing import left_out_words
 from poekin.view.scenes.arm_parts.skeleton import glyph_radii
 from tests.model.laws.chain_bounds import budget
 
@@ -295,6 +297,8 @@ def test_each_coordinate_of_the_largest_tip_has_its_columns():
 def test_unit_geometry_is_of_unit_size():
     scene = arm_scene(pk.load("ur5e"))
     for node in scene.nodes:
+        if not isinstance(node, Triangles):
+            continue
         if node.hung.rule in ("column_v", "column_w", "singular"):
             assert node.vertices[:, 2].min() == 0.0
             assert node.vertices[:, 2].max() == 1.0
@@ -352,3 +356,54 @@ def test_the_joints_of_fingers_are_drawn_smaller_than_those_of_arms():
     ]
     sizes = {node.hung.name: np.ptp(node.vertices, axis=0).max() for node in glyphs}
     assert sizes["LShoulderPitch"] > 2 * sizes["LFinger12"]
+
+
+BOXED = """<robot name="boxed">
+  <link name="base"><visual><geometry><box size="0.2 0.4 0.6"/></geometry></visual></link>
+  <link name="arm">
+    <visual><geometry><mesh filename="package://nowhere/arm.stl"/></geometry></visual>
+    <visual><geometry><mesh filename="package://nowhere/cover.stl"/></geometry></visual>
+  </link>
+  <link name="tip"/>
+  <joint name="turn" type="continuous">
+    <parent link="base"/><child link="arm"/><axis xyz="0 0 1"/><origin xyz="0 0 0.3"/>
+  </joint>
+  <joint name="end" type="fixed">
+    <parent link="arm"/><child link="tip"/><origin xyz="1 0 0"/>
+  </joint>
+</robot>"""
+
+
+def test_a_link_whose_mesh_is_not_found_is_a_bone_and_is_named():
+    robot = pk.from_text(BOXED)
+    scene = arm_scene(robot)
+    bodies = of_kind(scene.nodes, Triangles, "meshes")
+    assert [robot.links[node.hung.link] for node in bodies] == ["base", "arm"]
+    np.testing.assert_allclose(np.ptp(bodies[0].vertices, axis=0), [0.2, 0.4, 0.6], rtol=1e-15)
+    bone = bodies[1].vertices[:, 0]
+    assert bone.min() < 0.0
+    assert bone.max() > 1.0  # from the joint to the tip
+    (said,) = (words for words in scene.words if words.startswith("Not drawn"))
+    assert "'package://nowhere/arm.stl', 'package://nowhere/cover.stl': no package" in said
+    assert "meshes" in scene.shown
+    assert "skeleton" not in scene.shown
+
+
+def test_the_size_of_a_scene_covers_its_bodies():
+    """The box of the base reaches 0.1, 0.2 and 0.3 m behind, aside and below, the tip 1 m ahead."""
+    robot = pk.from_text(BOXED)
+    assert arm_scene(robot).size == pytest.approx(math.hypot(1.1, 0.4, 0.6), rel=1e-14)
+    bare = arm_scene(robot, meshes=False)
+    assert bare.size == pytest.approx(math.hypot(1.0, 0.3), rel=1e-14)
+    assert not of_kind(bare.nodes, Triangles, "meshes")
+    assert not any(words.startswith("Not drawn") for words in bare.words)
+
+
+def test_many_shapes_that_are_not_drawn_for_one_reason_make_one_sentence():
+    lost = [LeftOut("arm", "a:1", f"'m{k}.stl'", "no such file") for k in range(9)]
+    words = left_out_words([*lost, LeftOut("", "a", "9 triangles are drawn as 3", "1 mm off")])
+    assert words == [
+        "9 triangles are drawn as 3: 1 mm off.",
+        "Not drawn: 'm0.stl', 'm1.stl', 'm2.stl', 'm3.stl', 'm4.stl', 'm5.stl' and 3 more: "
+        "no such file.",
+    ]

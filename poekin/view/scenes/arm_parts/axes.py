@@ -14,24 +14,44 @@ from .geometry import ArmGeometry, JointGeometry
 
 HALF_LINE = 4.0
 """Half an axis line as a multiple of the radius of the joint's glyph."""
+COVERED = 1.6
+"""Factor by which lines and frames are longer where bodies cover them."""
+END_FRAME = 0.12
+"""Length of the arrows of the base's and the first tip's frame, as a share of the arm's size."""
+LINK_FRAME = 0.045
+"""The same, of other frames."""
 HEADS = ("axis", "joint", "kind", "ω", "point nearest to the origin, m", "v", "pitch, m/rad")
 XYZ: tuple[Role, Role, Role] = ("x", "y", "z")
 
 
-def axis_nodes(arm: ArmGeometry, radii: Array, size: float) -> list[Node]:
-    """For each joint its axis A_k, a head at the positive end, and its number."""
+def axis_nodes(
+    arm: ArmGeometry,
+    radii: Array,
+    size: float,
+    covered: bool = False,
+) -> list[Node]:
+    """For each joint its axis A_k, a head at the positive end, and its number; lines are longer where
+    bodies cover them.
+    """
+    half = HALF_LINE * (COVERED if covered else 1.0)
     nodes: list[Node] = []
     for k, (joint, radius) in enumerate(zip(arm.joints, radii, strict=True)):
-        nodes += _axis(joint, f"A{k + 1}", float(radius), size)
+        title = f"A{k + 1}"
+        nodes += _axis(joint, title, float(radius), half * radius * joint.direction, size)
     return nodes
 
 
-def _axis(joint: JointGeometry, title: str, radius: float, size: float) -> list[Node]:
-    half = HALF_LINE * radius * joint.direction
+def _axis(
+    joint: JointGeometry,
+    title: str,
+    radius: float,
+    half: Array,
+    size: float,
+) -> list[Node]:
     end = joint.point + half
     hung = Hung("axes", "joint", joint.parent, name=f"{title} {joint.name}")
     head = cone(0.15 * radius, 0.5 * radius).placed(end, joint.direction)
-    words = Label(hung, joint.point + 1.25 * half, title)
+    words = Label(hung, end + radius * joint.direction, title)
     line = Polyline(hung, np.array([joint.point - half, end]), 0.0025 * size)
     return [line, Triangles(hung, *head), words]
 
@@ -48,14 +68,18 @@ def label_nodes(arm: ArmGeometry, radii: Array) -> list[Node]:
     ]
 
 
-def frame_nodes(arm: ArmGeometry, size: float) -> list[Node]:
-    """Frames as three arrows; those of the base and the tips are larger and have their names."""
+def frame_nodes(arm: ArmGeometry, size: float, covered: bool = False) -> list[Node]:
+    """Frames as three arrows; those of the base and of the first tip are larger, and longer still where
+    bodies cover them; tips have their names.
+    """
     nodes: list[Node] = []
     for frame in arm.frames:
-        length = 0.12 * size if frame.end else 0.06 * size
+        length = LINK_FRAME * size
+        if frame.kind == "end":
+            length = END_FRAME * size * (COVERED if covered else 1.0)
         for role, axis in zip(XYZ, frame_axes(frame.pose, length), strict=True):
             nodes.append(Triangles(Hung("frames", role, frame.link, name=frame.name), *axis))
-        if frame.end:
+        if frame.kind != "link":
             hung = Hung("frames", "first", frame.link, name=frame.name)
             place = frame.pose[:3] @ [0.6 * length, 0.6 * length, 0.0, 1.0]
             nodes.append(Label(hung, place, escape_unprintable(frame.name)))

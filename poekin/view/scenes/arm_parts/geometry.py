@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from ....groups.arrays import Array
 from ....model.chain_data import ScrewKind
 from ....model.coordinates import coordinates
 from ...scene import Slider
+
+FrameKind = Literal["end", "tip", "link"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,14 +68,24 @@ class Bone:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LinkFrame:
-    """Frame on a link: its pose (4, 4) in the link's coordinates, m, its name, and whether it is the
-    base's or a tip's.
+    """Frame on a link.
+
+    Attributes
+    ----------
+    link : int
+        Number of the link.
+    pose : (4, 4) ndarray
+        Pose in the link's coordinates, m.
+    name : str
+        Words for it.
+    kind : {"end", "tip", "link"}
+        "end" of the base and of the tip that is shown first, "tip" of other tips.
     """
 
     link: int
     pose: Array
     name: str
-    end: bool
+    kind: FrameKind
 
 
 @dataclass(frozen=True, slots=True, eq=False)

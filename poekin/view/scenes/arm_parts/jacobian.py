@@ -33,7 +33,7 @@ def jacobian_nodes(columns: int, size: float) -> list[Node]:
 
 
 def _node(layer: Layer, role: Role, rule: Rule, index: int = 0) -> Triangles:
-    shape = sphere() if layer == "ellipsoids" else UNIT_ARROW
+    shape = sphere(1.0, 48) if layer == "ellipsoids" else UNIT_ARROW
     opacity = 0.35 if layer == "ellipsoids" else 1.0
     words = {
         "column_v": f"column {index + 1} of J, v",

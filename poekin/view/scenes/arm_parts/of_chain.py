@@ -30,15 +30,15 @@ def chain_geometry(chain: Chain) -> ArmGeometry:
         return np.concatenate([np.eye(4)[None], moved])
 
     places = np.array([np.zeros(3), *rest[:, :3, 3], tool[:3, 3]])
-    frames = [LinkFrame(0, np.eye(4), chain.base, True)]
-    frames += [LinkFrame(k + 1, rest[k], joints[k].name, False) for k in range(n)]
+    frames = [LinkFrame(0, np.eye(4), chain.base, "end")]
+    frames += [LinkFrame(k + 1, rest[k], joints[k].name, "link") for k in range(n)]
     return ArmGeometry(
         name=f"{chain.base} → {chain.tip}",
         links=(chain.base, *(joint.name for joint in joints)),
         sliders=_sliders(chain),
         joints=joints,
         bones=tuple(Bone(k, places[k], places[k + 1]) for k in range(n + 1)),
-        frames=(*frames, LinkFrame(n, tool, chain.tip, True)),
+        frames=(*frames, LinkFrame(n, tool, chain.tip, "end")),
         poses=poses,
     )
 

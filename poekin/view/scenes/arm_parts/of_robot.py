@@ -14,7 +14,7 @@ from ....model.chain_data import ScrewKind
 from ....model.joint import FREE, MOVING, Joint
 from ....model.robot import Robot
 from ...scene import Slider
-from .geometry import ArmGeometry, Bone, JointGeometry, LinkFrame
+from .geometry import ArmGeometry, Bone, FrameKind, JointGeometry, LinkFrame
 
 KINDS: dict[str, ScrewKind] = {
     "revolute": "revolute",
@@ -80,9 +80,10 @@ def _frames(
     numbers: dict[str, int],
 ) -> tuple[LinkFrame, ...]:
     """Frames of the root, of the links that joints move, and of the tips."""
-    ends = {robot.root, *tips}
-    named = dict.fromkeys([robot.root, *(joint.child for joint in moving), *tips])
-    return tuple(LinkFrame(numbers[link], np.eye(4), link, link in ends) for link in named)
+    kinds: dict[str, FrameKind] = {joint.child: "link" for joint in moving}
+    kinds.update(dict.fromkeys(tips, "tip"))
+    kinds.update(dict.fromkeys([robot.root, *tips[:1]], "end"))
+    return tuple(LinkFrame(numbers[link], np.eye(4), link, kind) for link, kind in kinds.items())
 
 
 def chain_to(robot: Robot, tip: str) -> Chain:

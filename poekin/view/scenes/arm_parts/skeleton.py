@@ -30,7 +30,12 @@ def glyph_radii(arm: ArmGeometry, q: Array, size: float) -> Array:
     places = np.array([T[j.parent, :3, :3] @ j.point + T[j.parent, :3, 3] for j in arm.joints])
     gaps = np.linalg.norm(places[:, None] - places, axis=-1)
     gaps[gaps <= COINCIDENT * size] = np.inf
-    return np.clip(0.35 * gaps.min(axis=1), SMALLEST * size, LARGEST * size)
+    room = 0.35 * gaps.min(axis=1)
+    for k, joint in enumerate(arm.joints):
+        if joint.kind == "prismatic":  # a slide is no longer than a few times its way
+            room[k] = min(room[k], 0.5 * (joint.limits[1] - joint.limits[0]))
+    largest = min(LARGEST * size, 1.5 * float(np.median(room)))
+    return np.clip(room, SMALLEST * size, max(largest, SMALLEST * size))
 
 
 def skeleton_nodes(arm: ArmGeometry, radii: Array, size: float) -> list[Node]:
