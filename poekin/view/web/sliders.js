@@ -59,7 +59,13 @@ export class Sliders {
         if (Number.isFinite(value)) {
             this.moved(k, value / this.factor(k));
         }
-        this.update();
+        this.write(k);
+    }
+
+    // The value in the box, whatever was typed there.
+    write(k) {
+        const places = PLACES[this.chosen[this.coordinates[k].unit]];
+        this.rows[k].number.value = (this.poekin.q[k] * this.factor(k)).toFixed(places);
     }
 
     factor(k) {
@@ -92,8 +98,8 @@ export class Sliders {
             row.slider.value = value;
             const share = (100 * (value - row.low)) / (row.high - row.low);
             row.slider.style.setProperty("--share", `${Math.min(Math.max(share, 0), 100)}%`);
-            if (document.activeElement !== row.number || !row.number.matches(":focus")) {
-                row.number.value = (value * this.factor(k)).toFixed(PLACES[this.chosen[this.coordinates[k].unit]]);
+            if (document.activeElement !== row.number) {
+                this.write(k);
             }
         });
     }
