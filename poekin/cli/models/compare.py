@@ -20,6 +20,10 @@ from ...analysis.compare.joint_table import HEADS, joint_row
 from ...checks import positive
 from ...errors import InputError, join_names
 from ...model.robot import Robot
+from ...view.page import page
+from ...view.scenes.comparison import comparison_scene
+from .. import array_files
+from ..formats import draw as pages
 from ..formats.frame_numbers import frame_layout, frame_lines, frame_numbers
 from ..formats.units import Deg, Mm
 from ..kinematics.arm import FILE_HELP, Base, Json, Seed, Tip
@@ -88,16 +92,20 @@ def command(
     deg: Deg = None,
     samples: Samples = 200,
     seed: Seed = 0,
+    draw: pages.Draw = None,
     json: Json = False,
 ) -> None:
     """Two models of one arm, joint by joint: axes, zero positions, directions. Exit code 0 the same,
     1 differ, 2 error, 3 the same arm in other conventions.
     """
+    pages.check(draw)
+    if draw is not None:
+        array_files.check_apart([draw], a=a, b=b)
     counted = _conventions(same)
     chosen = frame_layout(format, quaternion, mm, deg)
     robot_a, robot_b = models(a, b)
-    one = _chosen(robot_a, a, "--tip", base, tip)
-    other = _chosen(robot_b, b, "--tip-b", base_b, tip_b, base, tip)
+    one = chosen_chain(robot_a, a, "--tip", base, tip)
+    other = chosen_chain(robot_b, b, "--tip-b", base_b, tip_b, base, tip)
     positive(tol_mm, "--tol-mm")
     positive(tol_deg, "--tol-deg")
     result = compare(
@@ -110,12 +118,17 @@ def command(
         samples=samples,
         seed=seed,
     )
+    drawn = None
+    if draw is not None:
+        title = f"{robot_a.name} and {robot_b.name}"
+        drawn = page(comparison_scene(result, title=title))
     if json:
         frames = {} if chosen is None else frame_numbers(result, chosen)
         files = {"a": _where(a, one), "b": _where(b, other)}
         print(as_json(files | result.to_dict() | frames))
     else:
         _show(result, one, other, [] if chosen is None else frame_lines(result, chosen))
+    pages.save(drawn, draw, pages.teller(json, table=False))
     raise Exit(EXIT[result.outcome])
 
 
@@ -126,7 +139,7 @@ def _conventions(same: str) -> tuple[Convention, ...]:
     return checked(words)
 
 
-def _chosen(
+def chosen_chain(
     robot: Robot,
     file: str,
     option: str,

@@ -92,9 +92,18 @@ def make_stage(chain: Chain, q: Array | None, robot: Robot | None) -> Stage:
             f"robot: expected the robot of the chain from {quote(chain.base)} to {quote(chain.tip)}, got "
             f"{quote(robot.name)} without these links, or without their coordinates"
         )
-    sliders = tuple(map(robot.q_names.index, chain.q_names))
+    scene = arm_scene(robot, q=whole_q(robot, chain, q), tip=chain.tip)
+    return Stage(scene, robot.links.index(chain.base), _sliders(robot, chain))
+
+
+def whole_q(robot: Robot, chain: Chain, q: Array | None) -> Array:
+    """Coordinates of a robot: those of its chain as given, the others as a page opens."""
     values = opening_q(robot_geometry(robot, ()).sliders)
     if q is not None:
-        values[list(sliders)] = q
-    scene = arm_scene(robot, q=values, tip=chain.tip)
-    return Stage(scene, robot.links.index(chain.base), sliders)
+        values[list(_sliders(robot, chain))] = q
+    return values
+
+
+def _sliders(robot: Robot, chain: Chain) -> tuple[int, ...]:
+    """Numbers of a chain's coordinates among its robot's."""
+    return tuple(map(robot.q_names.index, chain.q_names))
