@@ -148,6 +148,10 @@ def chosen_chain(
     base_like: str | None = None,
     tip_like: str | None = None,
 ) -> Chosen:
+    """Chain of a robot; without base or tip those of the other model, where it has such links.
+
+    Raises: InputError where there are several tips.
+    """
     if base is None and base_like in robot.links:
         base = base_like
     if tip is None and tip_like in robot.links:

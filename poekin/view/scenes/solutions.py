@@ -18,7 +18,7 @@ from .arm_parts.of_chain import chain_geometry
 from .arm_parts.skeleton import glyph_radii, skeleton_nodes
 from .overlay import moved_node
 from .stage import Stage, make_stage
-from .targets import MOST, chain_kept, configuration_words, target_nodes
+from .targets import MOST, asked_of, configuration_words, target_nodes
 
 GHOST = 0.3
 """Opacity of a solution that is not the present one."""
@@ -44,12 +44,11 @@ def solutions_scene(found: AllSolutions, robot: Robot | None = None) -> Scene:
     InputError
         If the result holds no chain, or is of several targets, or the target is not finite.
     """
-    chain = chain_kept(found.chain, "AllSolutions")
+    chain, target = asked_of(found)
     if found.count.ndim:
         raise InputError(
             f"view: all solutions of one target expected, got those of {found.count.size}"
         )
-    target = np.reshape(found.target, (1, 4, 4))
     if not np.isfinite(target).all():
         raise InputError(f"view: a finite target expected, got {found.summary()}")
     q = found.solutions[:MOST]

@@ -6,12 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...analysis.amounts import amount
+from ...analysis.amounts import Unit, amount
 from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.robot import Robot
 from ...solve.ik.solution import Solution
+from ...solve.ik_all.all_solutions import AllSolutions
 from ..nodes import Label, Node, Triangles
 from ..scene import Scene, SceneChoice
 from ..shapes import frame_axes
@@ -43,15 +44,16 @@ def target_nodes(stage: Stage, poses: Array) -> list[Node]:
 
 def configuration_words(chain: Chain, q: Array) -> str:
     """A configuration for reading: "12.5°, −3°, 20 mm"."""
-    units = ("rad" if chain.is_angle(k) else "m" for k in range(chain.dof))
+    units: list[Unit] = ["rad" if chain.is_angle(k) else "m" for k in range(chain.dof)]
     return ", ".join(amount(float(x), unit, 3) for x, unit in zip(q, units, strict=True))
 
 
-def chain_kept(chain: Chain | None, what: str) -> Chain:
-    """The arm that a result holds. Raises: InputError where it was put together without one."""
-    if chain is None:
-        raise InputError(f"view: {what} that holds its chain expected, as its function makes it")
-    return chain
+def asked_of(found: Solution | AllSolutions) -> tuple[Chain, Array]:
+    """Arm and targets (n, 4, 4) of a result. Raises: InputError where it was made by hand."""
+    if found.chain is None or found.target is None:
+        kind = type(found).__name__
+        raise InputError(f"view: {kind}: expected one that ik or ik_all returned, with its chain")
+    return found.chain, found.target.reshape(-1, 4, 4)
 
 
 def solution_scene(found: Solution, robot: Robot | None = None) -> Scene:
@@ -75,9 +77,8 @@ def solution_scene(found: Solution, robot: Robot | None = None) -> Scene:
     InputError
         If the result holds no chain, or no finite target.
     """
-    chain = chain_kept(found.chain, "a Solution")
+    chain, poses = asked_of(found)
     q = found.q.reshape(-1, chain.dof)
-    poses = np.reshape(found.target, (-1, 4, 4))
     known = np.flatnonzero(np.isfinite(q).all(axis=1) & np.isfinite(poses).all(axis=(1, 2)))
     if not len(known):
         raise InputError(f"view: expected a finite target, got {found.summary()}")
