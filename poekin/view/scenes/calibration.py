@@ -57,8 +57,8 @@ def calibration_scene(found: Calibration) -> Scene:
         k = _factor(vectors, scene.size)
         nodes += _residuals(vectors, k, scene.size)
         words.append(
-            f"Residuals are drawn {k:g} times as long: from the measured point to where the nominal"
-            " arm (red) and the calibrated arm (blue) has it."
+            f"Residuals are drawn {k:g} times as long, from the measured point to where the nominal"
+            " arm (red) and the calibrated arm (blue) have it."
         )
     return replace(
         scene,

@@ -54,7 +54,7 @@ def second_nodes(
     """
     radii = glyph_radii(geometry, np.zeros(len(geometry.sliders)), size)
     arm = _on_bodies(geometry, second)
-    frames = tuple(frame for frame in arm.frames if frame.end and frame.name in ends)
+    frames = tuple(frame for frame in arm.frames if frame.kind == "end" and frame.name in ends)
     nodes = [*skeleton_nodes(arm, radii, size), *frame_nodes(replace(arm, frames=frames), size)]
     drawn = [_of_second(node, differing) for node in nodes]
     for k, joint in enumerate(arm.joints):
@@ -86,7 +86,7 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
         joints.append(moved)
     last = len(geometry.joints)
     frames = [
-        replace(frame, link=bodies[-1 if frame.link == last and frame.end else frame.link])
+        replace(frame, link=bodies[-1 if frame.link == last and frame.kind == "end" else frame.link])
         for frame in geometry.frames
     ]
     names = [""] * (bodies[-1] + 1)

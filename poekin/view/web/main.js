@@ -20,7 +20,8 @@ export class State {
         this.q = Float64Array.from(scene.q);
         this.shown = new Set(scene.shown);
         this.selectedTip = 0;
-        this.choice = null;
+        const here = scene.choices.findIndex(({ q }) => q.every((x, k) => x === scene.q[k]));
+        this.choice = here < 0 ? null : here;
         this.k = scene.exaggerated > 1 ? scene.arms[1].shift.at(-1) : 1; // of the second arm's differences
         this.listeners = {};
         this.parts = [];
