@@ -146,7 +146,7 @@ def _path(given: str, chain: Chain, units: SaidUnits) -> PathResult:
         return joint_path(chain, *read_joints(given, chain))
     with Progress("reading") as progress:
         q = array_files.read_configurations(given, units.columns(chain), progress)
-    return joint_path(chain, q)
+    return joint_path(chain, units.to_si(q, chain))
 
 
 def _compared(file: str, asked: Asked) -> tuple[Page, str]:
