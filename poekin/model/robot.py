@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..engine.straight_line.program import Program
 from ..errors import InputError, ModelError, UnknownName, quote, safe_repr, suggest
 from .chain import Chain
 from .joint import Joint
@@ -15,10 +16,10 @@ from .methods.peer_names import OF_CHAINS, OF_ROBOTS, no_attribute
 from .provenance import Source
 from .readings.coupled import with_readings
 from .readings.statements import Statements, make_statements
-from .show.tables import robot_table
 from .tree.all_poses import all_poses
 from .tree.chain_between import chain_between, only_leaf
 from .tree.coupling import warn_of_torn_limits
+from .tree.link_program import link_program
 from .tree.robot_parts import RobotParts, make_parts
 
 
@@ -302,6 +303,28 @@ class Robot:
         """
         return all_poses(self._parts, q, poses)
 
+    def program(self) -> Program:
+        """Straight-line program of the poses of all links; its `count` says what it costs.
+
+        Returns
+        -------
+        program : Program
+            Operations in an order in which they can be run: twelve numbers of each link's pose, in
+            the order of `links`. Floating and planar joints are at identity.
+
+        Notes
+        -----
+        Accuracy: that of `fk`, and 32 u a joint for the constants that are taken for 0 or ±1,
+        u = 2^-53, lengths times the reach (tests/model/tree/test_link_program.py). Source: as `fk`.
+
+        Examples
+        --------
+        >>> import poekin as pk
+        >>> pk.load("ur5e").program().count.sines
+        6
+        """
+        return link_program(self._parts)
+
     def _data(self) -> tuple[Any, ...]:
         return self.name, self.links, self.joints, self.coupling
 
@@ -317,9 +340,6 @@ class Robot:
         # Not __getstate__: Python 3.11.2 puts one of its own over that of a frozen dataclass with
         # slots.
         return _rebuilt, (*self._data(), self.source)
-
-    def _repr_html_(self) -> str:
-        return robot_table(self.name, self.joints)
 
     def __repr__(self) -> str:
         leaves = ", ".join(map(quote, self.leaves[:3]))

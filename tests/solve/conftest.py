@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from poekin import svg
+from poekin.solve import svg
 
 
 @pytest.fixture

@@ -1,0 +1,126 @@
+"""Nodes as objects of k3d, numbered 1, 2, 3, …, in k3d's own offline page.
+
+Nodes that move as one and look alike become one object: a browser draws few large objects faster
+than many small ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..errors import MissingExtra
+from .nodes import Cloud, Hung, Label, Node, Polyline, Triangles
+from .palette import color
+
+Drawable = Triangles | Polyline | Cloud
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DrawnObject:
+    """Object of the page: its number, and the nodes in it, of which the first says how it moves."""
+
+    number: int
+    nodes: tuple[Drawable, ...]
+
+    @property
+    def hung(self) -> Hung:
+        """Where all its nodes are hung; the name is the first's."""
+        return self.nodes[0].hung
+
+
+def grouped(nodes: Iterable[Node]) -> list[DrawnObject]:
+    """Objects of the nodes, in their order; labels are no objects."""
+    groups: dict[tuple[object, ...], list[Drawable]] = {}
+    for place, node in enumerate(nodes):
+        if not isinstance(node, Label):
+            groups.setdefault(_look(node, place), []).append(node)
+    return [DrawnObject(k, tuple(v)) for k, v in enumerate(groups.values(), start=1)]
+
+
+def snapshot(objects: Sequence[DrawnObject], script: str) -> str:
+    """Offline page of k3d with these objects; script runs when they are there, and finds the plot
+    as K3DInstance.
+
+    Raises
+    ------
+    MissingExtra
+        If k3d is not installed.
+    """
+    try:
+        import k3d
+    except ImportError as missing:
+        raise MissingExtra("k3d", "view", "drawing a page") from missing
+    plot: Any = k3d.plot(
+        grid_visible=False,
+        menu_visibility=False,
+        camera_auto_fit=False,
+        camera_mode="orbit",
+        camera_up_axis="z",
+        camera_fov=35.0,
+        axes_helper=0.0,
+        colorbar_object_id=0,
+        lighting=2.0,
+    )
+    for drawn in objects:
+        made = _made(k3d, drawn)
+        made.id = drawn.number  # k3d's own is the address in memory: no two pages would be equal
+        plot += made
+    return plot.get_snapshot(additional_js_code=script)
+
+
+def _look(node: Drawable, place: int) -> tuple[object, ...]:
+    """What nodes of one object have in common."""
+    h = node.hung
+    own: object = None
+    if isinstance(node, Polyline):
+        own = node.width
+    elif isinstance(node, Cloud):
+        own = place
+    where = (h.layer, h.role, h.link, h.arm, h.rule, h.index, h.choice, h.color, h.opacity)
+    return type(node), own, *where
+
+
+def _made(k3d: Any, drawn: DrawnObject) -> Any:
+    """The object of k3d."""
+    first = drawn.nodes[0]
+    look = {"color": color(drawn.hung), "opacity": drawn.hung.opacity}
+    if isinstance(first, Triangles):
+        vertices, faces = _joined((n.vertices, n.faces) for n in drawn.nodes)  # type: ignore[union-attr]
+        return k3d.mesh(vertices, faces, side="double", flat_shading=False, **look)
+    if isinstance(first, Polyline):
+        vertices, pairs = _joined((n.points, _pairs(len(n.points))) for n in drawn.nodes)  # type: ignore[union-attr]
+        shape = {"indices_type": "segment", "width": first.width, "shader": "mesh"}
+        return k3d.lines(vertices, pairs, **shape, **look)
+    points = np.asarray(first.points, np.float32)
+    shape = {"point_size": first.size, "shader": "3d"}
+    if first.values is None:
+        return k3d.points(points, **shape, **look)
+    return k3d.points(
+        points,
+        attribute=np.asarray(first.values, np.float32),
+        color_map=k3d.matplotlib_color_maps.viridis,
+        opacity=drawn.hung.opacity,
+        **shape,
+    )
+
+
+def _pairs(count: int) -> np.ndarray:
+    """Numbers of the ends of the pieces of a line through so many points."""
+    start = np.arange(count - 1)
+    return np.stack([start, start + 1], axis=1)
+
+
+def _joined(parts: Iterable[tuple[Any, Any]]) -> tuple[np.ndarray, np.ndarray]:
+    """Points of all parts, and their faces or pairs renumbered."""
+    points = []
+    cells = []
+    before = 0
+    for own_points, own_cells in parts:
+        points.append(np.asarray(own_points, np.float32))
+        cells.append(np.asarray(own_cells, np.uint32) + np.uint32(before))
+        before += len(own_points)
+    return np.concatenate(points), np.concatenate(cells)

@@ -1,0 +1,27 @@
+"""Colours of what a node stands for, out of the palette of Okabe and Ito (2008)."""
+
+from __future__ import annotations
+
+from .nodes import Hung, Role
+
+PALETTE: dict[Role, int] = {
+    "first": 0xB4BEC9,
+    "second": 0x56B4E9,
+    "joint": 0xE69F00,
+    "linear": 0x009E73,
+    "angular": 0xCC79A7,
+    "differs": 0xD55E00,
+    "path": 0x0072B2,
+    "marked": 0xD55E00,
+    "x": 0xD55E00,
+    "y": 0x009E73,
+    "z": 0x0072B2,
+}
+"""Colours 0xRRGGBB that the colour-blind can tell apart, on light and on dark; grey for an arm."""
+
+
+def color(hung: Hung) -> int:
+    """Colour of a node: its own, or its role's."""
+    if hung.color is not None:
+        return hung.color
+    return PALETTE[hung.role]

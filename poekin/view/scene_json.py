@@ -1,0 +1,90 @@
+"""A scene as the JSON that a page carries: all but the geometry, which k3d's objects have."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..errors import escape_unprintable
+from .k3d_objects import DrawnObject
+from .nodes import Cloud, Hung, Label, Polyline, Triangles
+from .palette import PALETTE, color
+from .scene import Scene, SceneArm
+
+_KINDS = {Triangles: "triangles", Polyline: "line", Cloud: "cloud"}
+
+
+def scene_json(scene: Scene, objects: Sequence[DrawnObject]) -> str:
+    """The JSON, safe inside an element <script>: `<`, `>` and `&` are escaped, and so is every
+    character that cannot be printed; a number that is not finite is null.
+    """
+    contents = {
+        "title": scene.title,
+        "words": scene.words,
+        "size": scene.size,
+        "q": scene.q,
+        "shown": sorted(scene.shown),
+        "exaggerated": scene.exaggerated,
+        "palette": {role: _css(value) for role, value in PALETTE.items()},
+        "arms": [_arm(arm) for arm in scene.arms],
+        "objects": [_object(drawn) for drawn in objects],
+        "labels": [_label(node) for node in scene.nodes if isinstance(node, Label)],
+        "motion": scene.motion,
+        "choices": scene.choices,
+        "tables": scene.tables,
+    }
+    text = json.dumps(_plain(contents), allow_nan=False, separators=(",", ":"))
+    for sign in "<>&":
+        text = text.replace(sign, f"\\u{ord(sign):04x}")
+    return text
+
+
+def _arm(arm: SceneArm) -> dict[str, object]:
+    """An arm without its program, which the page runs."""
+    fields = {f.name: getattr(arm, f.name) for f in dataclasses.fields(arm)}
+    del fields["program"]
+    return fields | {"base": np.ravel(arm.base)}
+
+
+def _object(drawn: DrawnObject) -> dict[str, object]:
+    names = [n.hung.name for n in drawn.nodes]
+    own = {"id": drawn.number, "kind": _KINDS[type(drawn.nodes[0])], "names": names}
+    return own | _hung(drawn.hung)
+
+
+def _label(node: Label) -> dict[str, object]:
+    return {"text": node.text, "point": node.point} | _hung(node.hung)
+
+
+def _hung(hung: Hung) -> dict[str, object]:
+    fields = {f.name: getattr(hung, f.name) for f in dataclasses.fields(hung)}
+    return fields | {"color": _css(color(hung))}
+
+
+def _css(value: int) -> str:
+    """A colour as CSS writes it."""
+    return f"#{value:06x}"
+
+
+def _plain(value: Any) -> Any:
+    """Arrays and data classes as lists and dictionaries."""
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if dataclasses.is_dataclass(value):
+        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(v) for v in value]
+    if isinstance(value, str):
+        return escape_unprintable(value)
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

@@ -1,0 +1,197 @@
+// What the canvas shows: k3d's objects, each with the matrix of its link or its rule, and the camera.
+//
+// `state` is what main.js knows: scene, q, selectedTip, shown (layers), choice, and the functions
+// linkPose(arm, link, choice) and tip(t), poses in the world and in the first arm's base.
+
+import { ellipsoid, product, singularDirection } from "./mathematics.js";
+
+const HIDDEN = Float64Array.of(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1);
+const UNIT = Float64Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+const THIN = 1e-4; // of the scene: an ellipsoid that is flat keeps a thickness, and its light
+const ARROW_V = 0.35; // length of an arrow of 1 m/rad, m, and of half an axis
+const ARROW_W = 0.2; // of the scene: length of an arrow of 1 rad/rad
+
+// Lengths at which velocities are drawn: m per m/s at one rad/s or m/s, and per rad/s.
+export function arrowScales(scene) {
+    const slides = scene.arms.length > 0 && scene.arms[0].coordinates.some((x) => x.unit === "m");
+    return { v: slides ? Math.min(ARROW_V, ARROW_W * scene.size) : ARROW_V, w: ARROW_W * scene.size };
+}
+
+// The matrix that takes the unit arrow along z to the vector d at the point p of T.
+export function arrowMatrix(T, d, scale) {
+    const length = Math.hypot(d[0], d[1], d[2]);
+    if (!(length * scale > 0)) {
+        return HIDDEN;
+    }
+    const z = [d[0] / length, d[1] / length, d[2] / length];
+    const aside = Math.abs(z[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0];
+    const y = unitVector([
+        z[1] * aside[2] - z[2] * aside[1],
+        z[2] * aside[0] - z[0] * aside[2],
+        z[0] * aside[1] - z[1] * aside[0],
+    ]);
+    const x = [y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0]];
+    const s = length * scale;
+    return Float64Array.of(
+        s * x[0], s * y[0], s * z[0], T[3],
+        s * x[1], s * y[1], s * z[1], T[7],
+        s * x[2], s * y[2], s * z[2], T[11],
+        0, 0, 0, 1,
+    );
+}
+
+function unitVector([x, y, z]) {
+    const length = Math.hypot(x, y, z);
+    return [x / length, y / length, z / length];
+}
+
+// An ellipsoid's matrix with each half axis between a least and a largest length.
+function thickened(M, least, most) {
+    const lengths = [0, 1, 2].map((k) => Math.hypot(M[k], M[4 + k], M[8 + k]));
+    const largest = Math.max(...lengths);
+    const shrink = largest > most ? most / largest : 1;
+    for (let k = 0; k < 3; k++) {
+        const wanted = Math.max(lengths[k] * shrink, least);
+        for (let r = 0; r < 3; r++) {
+            const e = 4 * r + k;
+            M[e] = lengths[k] > 0 ? (M[e] * wanted) / lengths[k] : wanted * (r === k ? 1 : 0);
+        }
+    }
+    return M;
+}
+
+// Pose of a node that follows a rule, in the first arm's base.
+export function rulePose(node, tip, scene, scales) {
+    const { T, J } = tip;
+    const m = J.length / 6;
+    const column = (first) => [J[first * m + node.index], J[(first + 1) * m + node.index], J[(first + 2) * m + node.index]];
+    switch (node.rule) {
+        case "column_v":
+            return node.index < m ? arrowMatrix(T, column(3), scales.v) : HIDDEN;
+        case "column_w":
+            return node.index < m ? arrowMatrix(T, column(0), scales.w) : HIDDEN;
+        case "ellipsoid_v":
+            return thickened(ellipsoid(T, J, "translation", scales.v), THIN * scene.size, 0.5 * scene.size);
+        case "ellipsoid_w":
+            return thickened(ellipsoid(T, J, "rotation", scales.w), THIN * scene.size, 0.5 * scene.size);
+        case "singular":
+            return arrowMatrix(T, singularVector(J, tip, scene), 1.5 * scales.w);
+        default:
+            return T; // "tip" and "target"
+    }
+}
+
+// The direction that the tip moves worst: the translation of the twist, or its rotation, whichever
+// is larger at the length of the scene.
+function singularVector(J, tip, scene) {
+    const { twist } = singularDirection(J, tip.part, tip.rank, scene.size);
+    const w = twist.slice(0, 3);
+    const v = twist.slice(3).map((x) => x / scene.size);
+    return unitVector(Math.hypot(...v) >= Math.hypot(...w) ? v : w);
+}
+
+// The objects of the scene in the canvas of k3d.
+export class Drawing {
+    constructor(K, state) {
+        this.K = K;
+        this.state = state;
+        this.scales = arrowScales(state.scene);
+        this.three = state.scene.objects.map((node) => K.getObjectById(node.id));
+        this.three.forEach((object) => {
+            object.matrixAutoUpdate = false;
+        });
+        this.ground = null;
+    }
+
+    // Moves all objects to where they are, for the renderer to draw.
+    update() {
+        const { scene } = this.state;
+        scene.objects.forEach((node, k) => {
+            const object = this.three[k];
+            object.visible = this.isShown(node);
+            if (object.visible) {
+                setMatrix(object, this.poseOf(node));
+            }
+        });
+    }
+
+    isShown(node) {
+        const { shown, choice } = this.state;
+        return shown.has(node.layer) && (node.choice === null || node.choice !== choice);
+    }
+
+    poseOf(node) {
+        const { state } = this;
+        if (node.rule !== null) {
+            if (state.scene.arms[0].tips.length === 0) {
+                return HIDDEN;
+            }
+            const tip = state.tip(state.selectedTip);
+            return product(state.scene.arms[0].base, rulePose(node, tip, state.scene, this.scales));
+        }
+        if (node.link === null) {
+            return UNIT;
+        }
+        return state.linkPose(node.arm, node.link, node.choice);
+    }
+
+    // A camera that sees all that is shown, from the front, a little from above.
+    fit() {
+        const { THREE } = this.K.Provider;
+        const box = this.bounds(THREE);
+        const sphere = box.getBoundingSphere(new THREE.Sphere());
+        const { camera } = this.K.getWorld();
+        const half = (camera.fov * Math.PI) / 360;
+        const across = Math.atan(Math.tan(half) * Math.min(camera.aspect, 1));
+        const distance = sphere.radius / Math.sin(across);
+        const way = unitVector([1, -1.25, 0.65]);
+        const { x, y, z } = sphere.center;
+        this.K.setCamera([x + way[0] * distance, y + way[1] * distance, z + way[2] * distance, x, y, z, 0, 0, 1]);
+        this.K.render();
+    }
+
+    bounds(THREE) {
+        const box = new THREE.Box3();
+        this.state.scene.objects.forEach((node, k) => {
+            if (this.three[k].visible && node.rule === null) {
+                this.three[k].updateWorldMatrix(true, false);
+                box.expandByObject(this.three[k]);
+            }
+        });
+        if (box.isEmpty()) {
+            const half = this.state.scene.size / 2;
+            box.set(new THREE.Vector3(-half, -half, -half), new THREE.Vector3(half, half, half));
+        }
+        return box;
+    }
+
+    // The floor: lines 1 : 10 of the scene apart, at z = 0 or below what reaches under it.
+    setTheme(dark) {
+        const { THREE } = this.K.Provider;
+        const world = this.K.getWorld();
+        this.K.setClearColor(dark ? 0x16191d : 0xf4f6f8);
+        if (this.ground !== null) {
+            world.scene.remove(this.ground);
+        }
+        const step = 10 ** Math.round(Math.log10(this.state.scene.size / 6));
+        const count = 2 * Math.ceil((1.25 * this.state.scene.size) / step);
+        const color = dark ? 0x353b43 : 0xd3d9df;
+        this.ground = new THREE.GridHelper(count * step, count, color, color);
+        this.ground.rotation.x = Math.PI / 2;
+        const low = this.bounds(THREE).min.z;
+        this.ground.position.z = low < -0.02 * this.state.scene.size ? low : 0;
+        this.ground.updateMatrix();
+        world.scene.add(this.ground);
+        this.K.render();
+    }
+}
+
+function setMatrix(object, M) {
+    const e = object.matrix.elements;
+    for (let r = 0; r < 4; r++) {
+        for (let c = 0; c < 4; c++) {
+            e[4 * c + r] = M[4 * r + c];
+        }
+    }
+    object.matrixWorldNeedsUpdate = true;
+}

@@ -1,0 +1,118 @@
+// The panel beside the canvas: words, sliders, layers, choices, numbers, tables.
+
+import { button, element, section } from "./elements.js";
+import { Numbers } from "./numbers.js";
+import { Sliders } from "./sliders.js";
+
+const LAYERS = {
+    meshes: "Meshes", skeleton: "Skeleton", axes: "Screw axes", frames: "Frames", labels: "Labels",
+    jacobian: "Jacobian columns", ellipsoids: "Ellipsoids", singular: "Worst direction", path: "Path",
+    solutions: "Solutions", differences: "Differences", cloud: "Cloud",
+};
+
+export class Panel {
+    constructor(poekin) {
+        this.poekin = poekin;
+        this.sliders = new Sliders(poekin);
+        this.numbers = this.hasTip() ? new Numbers(poekin) : null;
+        this.choices = [];
+        this.place = element("div", { id: "poekin-play" }); // for the way along a path
+        this.box = element("aside", { id: "poekin-panel", "aria-label": "Controls and numbers" },
+            this.head(), ...this.parts());
+        document.body.append(this.box);
+    }
+
+    hasTip() {
+        const { arms } = this.poekin.scene;
+        return arms.length > 0 && arms[0].tips.length > 0;
+    }
+
+    head() {
+        const { title, words } = this.poekin.scene;
+        return element("header", {}, element("h1", { text: title }), ...words.map((text) => element("p", { text })));
+    }
+
+    parts() {
+        const parts = [this.place];
+        if (this.sliders.rows.length > 0) {
+            parts.push(section("Joints", true, this.tools(), this.sliders.box));
+        }
+        if (this.poekin.scene.choices.length > 0) {
+            parts.push(section("Solutions", true, this.choiceList()));
+        }
+        parts.push(section("Show", true, this.layers()));
+        if (this.numbers !== null) {
+            parts.push(...this.tipSelector(), this.numbers.box);
+        }
+        parts.push(...this.poekin.scene.tables.map(tableOf));
+        return parts;
+    }
+
+    tools() {
+        const units = this.sliders.kinds().map((kind) => {
+            const text = kind === "rad" ? "° / rad" : "m / mm";
+            return button(text, `Switch the unit: ${text}`, () => this.sliders.switchUnit(kind));
+        });
+        const { poekin } = this;
+        const back = button("Reset", "Back to the first configuration", () => poekin.set(poekin.scene.q));
+        return element("div", { class: "tools" }, ...units, back);
+    }
+
+    layers() {
+        const { scene, shown } = this.poekin;
+        const nodes = [...scene.objects, ...scene.labels];
+        const boxes = Object.keys(LAYERS).filter((layer) => nodes.some((node) => node.layer === layer)).map((layer) => {
+            const input = element("input", { type: "checkbox", checked: shown.has(layer), "data-layer": layer });
+            input.addEventListener("change", () => this.poekin.show(layer, input.checked));
+            const color = nodes.find((node) => node.layer === layer).color;
+            const swatch = element("span", { class: "swatch", style: `--color: ${color}` });
+            return element("label", { class: "layer" }, input, swatch, element("span", { text: LAYERS[layer] }));
+        });
+        return element("div", { class: "layers" }, ...boxes);
+    }
+
+    choiceList() {
+        this.choices = this.poekin.scene.choices.map((choice, k) =>
+            button(choice.text, choice.text, () => this.poekin.choose(k), { class: "choice", "aria-pressed": "false" }),
+        );
+        return element("div", { class: "choices" }, ...this.choices);
+    }
+
+    tipSelector() {
+        const { tips } = this.poekin.scene.arms[0];
+        if (tips.length < 2) {
+            return [];
+        }
+        const select = element("select", { id: "poekin-tip" },
+            ...tips.map((tip, k) => element("option", { value: k, text: tip.name })));
+        select.value = this.poekin.selectedTip;
+        select.addEventListener("change", () => this.poekin.select(Number(select.value)));
+        return [element("label", { class: "tip" }, element("span", { text: "Tip" }), select)];
+    }
+
+    // Shows what the reader has moved, switched or chosen.
+    update() {
+        this.sliders.update();
+        this.choices.forEach((choice, k) => choice.setAttribute("aria-pressed", String(k === this.poekin.choice)));
+        if (this.numbers !== null) {
+            this.numbers.update();
+        }
+    }
+
+    // The tables of another tip.
+    retip() {
+        this.numbers.build();
+        this.numbers.update();
+        const select = document.getElementById("poekin-tip");
+        if (select !== null) {
+            select.value = this.poekin.selectedTip;
+        }
+    }
+}
+
+function tableOf({ title, heads, rows }) {
+    const head = element("tr", {}, ...heads.map((text) => element("th", { text, scope: "col" })));
+    const lines = rows.map((row) => element("tr", {}, ...row.map((text) => element("td", { text }))));
+    const grid = element("table", { class: "words" }, head, ...lines);
+    return section(title, true, element("div", { class: "wide" }, grid));
+}

@@ -1,0 +1,143 @@
+"""The file of a page: the same for the same scene, names escaped, nothing fetched, its size."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from html.parser import HTMLParser
+from typing import Any
+
+import numpy as np
+import pytest
+
+from poekin.errors import FileError, MissingExtra
+from poekin.view import k3d_objects
+from poekin.view.nodes import Hung, Label
+from poekin.view.page import Page, page, page_script
+from poekin.view.scene_json import scene_json
+from tests.view import sliding_arm
+
+pytest.importorskip("k3d", reason="no k3d: no page was made")
+EVIL = "</script><!--<script><img src=x onerror=\"document.title='cut'\">&amp;\u202e\n"
+
+
+@pytest.fixture(scope="module")
+def made() -> Page:
+    return page(sliding_arm.scene())
+
+
+class Elements(HTMLParser):
+    """Elements of a page with their attributes, and the text of each script."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.found: list[tuple[str, dict[str, str | None]]] = []
+        self.texts: list[str] = []
+        self.feed(html)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.found.append((tag, dict(attrs)))
+        self.texts.append("")
+
+    def handle_data(self, data: str) -> None:
+        if self.texts:
+            self.texts[-1] += data
+
+    def count(self, tag: str) -> int:
+        return sum(name == tag for name, _ in self.found)
+
+    def scene(self) -> Any:
+        places = [k for k, (_, a) in enumerate(self.found) if a.get("id") == "poekin-scene"]
+        return json.loads(self.texts[places[0]])
+
+
+def test_the_same_scene_gives_the_same_bytes(made):
+    assert page(sliding_arm.scene()).html == made.html
+
+
+def test_a_page_of_a_small_scene_has_less_than_2_megabytes(made):
+    assert 5e5 < len(made.html.encode()) < 2e6
+
+
+def test_a_page_names_nothing_outside_itself(made):
+    attributes = [value for _, a in Elements(made.html).found for value in a.items()]
+    fetched = [v for name, v in attributes if name in {"src", "href", "srcset", "action", "data"}]
+    assert fetched == ["data:,"]
+    policy = next(v for name, v in attributes if name == "content" and "default-src" in str(v))
+    assert "default-src 'none'" in policy
+    assert "http" not in policy
+
+
+def test_names_out_of_files_stay_text(made):
+    own = Elements(made.html)
+    evil = sliding_arm.scene(EVIL, words=(EVIL,))
+    found = Elements(page(evil).html)
+    assert [tag for tag, _ in found.found] == [tag for tag, _ in own.found]
+    assert found.scene()["title"] == EVIL.replace("\u202e", "\\u202e").replace("\n", "\\n")
+    assert EVIL[:20] in Label(Hung("labels", "first"), np.zeros(3), EVIL).text
+
+
+def test_a_program_whose_comment_ends_a_script_does_not_end_it(made):
+    evil = f"// {EVIL.strip()}\n{sliding_arm.PROGRAM}"
+    scene = sliding_arm.scene(arms=(sliding_arm.arm(program=evil),))
+    assert Elements(page(scene).html).count("script") == Elements(made.html).count("script")
+
+
+def test_the_json_has_all_but_geometry_and_no_number_that_json_has_not(made):
+    found = Elements(made.html).scene()
+    assert found["arms"][0]["coordinates"][1] == {
+        "name": "elbow", "unit": "rad", "lower": None, "upper": None,
+    }  # fmt: skip
+    assert found["arms"][0]["base"] == np.eye(4).ravel().tolist()
+    assert "program" not in found["arms"][0]
+    assert [one["id"] for one in found["objects"]] == list(range(1, len(found["objects"]) + 1))
+    assert len(found["labels"]) == 2
+    assert found["motion"]["marks"] == [
+        {"first": 10, "last": 20, "kind": "singular", "text": "Near a singularity."}
+    ]
+
+
+def test_nodes_that_move_and_look_alike_are_one_object():
+    boxes = [sliding_arm.box(Hung("meshes", "first", 1, name=n), [0, 0, 0], [1, 1, 1]) for n in "ab"]
+    other = sliding_arm.box(Hung("meshes", "first", 2), [0, 0, 0], [1, 1, 1])
+    objects = k3d_objects.grouped([boxes[0], other, boxes[1]])
+    assert [[n.hung.name for n in one.nodes] for one in objects] == [["a", "b"], [""]]
+    scene = sliding_arm.scene(nodes=(*boxes, other))
+    assert json.loads(scene_json(scene, objects))["objects"][0]["names"] == ["a", "b"]
+
+
+def test_a_page_is_saved_whole_and_says_where(made, tmp_path):
+    path = made.save(tmp_path / "arm.html")
+    assert path == tmp_path / "arm.html"
+    assert path.read_text(encoding="utf-8") == made.html
+    with pytest.raises(FileError, match="no such folder"):
+        made.save(tmp_path / "no such folder" / "arm.html")
+
+
+def test_a_notebook_shows_the_page_in_a_frame_that_it_cannot_leave(made):
+    (tag, attributes), *others = Elements(made._repr_html_()).found
+    assert (tag, others) == ("iframe", [])
+    assert attributes["srcdoc"] == made.html
+    assert attributes["sandbox"] == "allow-scripts"
+
+
+def test_a_page_says_what_it_is_in_one_line(made):
+    assert re.fullmatch(r"<Page 'sliding arm', 1\.\d MB>", repr(made))
+
+
+def test_without_k3d_the_extra_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "k3d", None)
+    with pytest.raises(MissingExtra) as caught:
+        page(sliding_arm.scene())
+    assert str(caught.value) == (
+        "drawing a page needs the package k3d: pip install 'poekin[view]'"
+    )
+
+
+def test_no_name_of_the_page_s_script_is_declared_twice():
+    declared = re.findall(r"^(?:const|let|class|(?:async )?function) (\w+)", page_script(), re.M)
+    assert len(declared) > 80
+    assert {name for name in declared if declared.count(name) > 1} == set()
+    assert not re.search(r"^(import|export)\b", page_script(), re.MULTILINE)
