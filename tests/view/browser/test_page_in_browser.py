@@ -10,7 +10,7 @@ import pytest
 
 import poekin as pk
 from poekin.view.nodes import Hung, Label
-from poekin.view.page import page
+from poekin.view.page import Page, page
 from poekin.view.scene import SceneArm
 from tests.view import sliding_arm
 from tests.view.sliding_arm import Q, jacobian, poses
@@ -207,8 +207,7 @@ def test_a_link_holds_the_configuration_and_the_tip(arm):
     arm.ask("poekin.select(0)")
     arm.tab.goto("about:blank")
     arm.tab.goto(address)
-    arm.tab.wait_for_function("window.poekin !== undefined")
-    arm.ask("poekin.ready.then(() => true)")
+    arm.wait()
     assert arm.ask("[...poekin.q]") == [0.123456789, -2.0, 0.05]
     assert arm.ask("poekin.selectedTip") == 1
     arm.ask("() => { location.hash = '#q=1,2&tip=9'; }")
@@ -222,6 +221,16 @@ def test_names_out_of_files_are_words_in_the_page(open_page):
     assert opened.ask("document.title") == EVIL
     assert opened.ask('document.querySelector("h1").textContent') == EVIL
     assert opened.ask('document.querySelectorAll("img").length') == 0
+
+
+def test_a_page_in_a_notebook_s_frame_moves_too(open_page):
+    made = page(sliding_arm.scene())
+    notebook = Page("notebook", f"<!doctype html><title>notebook</title>{made._repr_html_()}")
+    opened = open_page(notebook, framed=True)
+    opened.move([0.2, 0.3, 0.1])
+    assert opened.ask("poekin.numbers().position[2]") == pytest.approx(0.2, rel=1e-15)
+    opened.tab.frame_locator("iframe").get_by_role("button", name="Copy a link").click()
+    opened.settle()
 
 
 def second_arm() -> SceneArm:
