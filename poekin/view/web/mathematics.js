@@ -214,7 +214,7 @@ export function largestRank(jacobians, part) {
 // where that alone takes all coordinates.
 export function defaultPart(jacobians) {
     const m = jacobians[0].length / 6;
-    return m <= 3 && largestRank(jacobians, "translation") === m ? "translation" : "pose";
+    return largestRank(jacobians, "translation") === m ? "translation" : "pose";
 }
 
 // Yoshikawa's measure, condition number and smallest singular value of a part, by its `rank` largest
@@ -261,8 +261,8 @@ export function singularDirection(J, part, rank, length) {
     return { twist, smallest: s[worst], ratio: s[0] > 0 ? s[worst] / s[0] : 0 };
 }
 
-// The damped step (J^T J + damping I) dq = J^T e over the coordinates that are free, by rows first to
-// last of J; 0 for all others. H = L D L^T without square roots.
+// The damped step (J^T J + damping I) dq = J^T e over the coordinates that are free, by the rows of J
+// from the first on; 0 for all others. damping > 0. H = L D L^T without square roots.
 export function dampedStep(J, e, damping, free, first = 0) {
     const m = J.length / 6;
     const H = new Float64Array(m * m);
@@ -277,7 +277,7 @@ export function dampedStep(J, e, damping, free, first = 0) {
         for (let r = first; free[i] && r < 6; r++) {
             dq[i] += J[r * m + i] * e[r];
         }
-        H[i * m + i] += free[i] ? damping : 1;
+        H[i * m + i] += damping;
         largest = Math.max(largest, H[i * m + i]);
     }
     for (let i = 0; i < m; i++) {
