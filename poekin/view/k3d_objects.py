@@ -31,7 +31,7 @@ class DrawnObject:
 
     @property
     def hung(self) -> Hung:
-        """Where all its nodes are hung; the name is the first's."""
+        """Link, layer and look of all its nodes; the name is the first's."""
         return self.nodes[0].hung
 
 
@@ -76,7 +76,7 @@ def snapshot(objects: Sequence[DrawnObject], script: str) -> str:
 
 
 def _look(node: Drawable, place: int) -> tuple[object, ...]:
-    """What nodes of one object have in common."""
+    """Look and link of a node, equal for all nodes of one object."""
     h = node.hung
     own: object = None
     if isinstance(node, Polyline):

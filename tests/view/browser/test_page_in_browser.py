@@ -59,7 +59,11 @@ def test_poses_and_jacobians_of_200_configurations_are_those_of_numpy(arm):
     script = """(rows) => rows.map((q) => { poekin.set(q); const n = poekin.numbers();
         return [...poekin.links(0), ...n.matrix, ...n.J, ...n.position]; })"""
     found = np.array(arm.ask(script, q.tolist()))
-    true = [np.r_[p.ravel(), p[3].ravel(), jacobian(x).ravel(), p[3, :3, 3]] for x in q for p in [poses(x)]]
+    true = [
+        np.r_[p.ravel(), p[3].ravel(), jacobian(x).ravel(), p[3, :3, 3]]
+        for x in q
+        for p in [poses(x)]
+    ]
     assert np.abs(found - true).max() <= TIGHT
 
 
@@ -249,7 +253,7 @@ def test_a_second_arm_moves_with_the_sliders_and_its_difference_is_enlarged(open
     )
     opened = open_page(page(scene))
     first = poses(Q)[2]
-    second = poses(Q + [0, 0.1, 0])[2]
+    second = poses(np.add(Q, [0, 0.1, 0]))[2]
     second[2, 3] += 0.01
     number = number_of(opened, arm=1)
     assert np.abs(matrix(opened, number) - second).max() <= TIGHT
@@ -288,7 +292,8 @@ def test_nothing_is_cut_off_and_nothing_overlaps(arm, width):
     assert canvas["bottom"] - canvas["top"] >= 300
     inside = "#poekin-panel :is(h1, p, summary, label, input, button, select, .unit, .wide)"
     for box in arm.boxes(inside):
-        assert panel["left"] <= box["left"] and box["right"] <= panel["right"] + 0.5
+        assert panel["left"] <= box["left"]
+        assert box["right"] <= panel["right"] + 0.5
     for group in (".slider > *", "#poekin-toolbar > *", ".layer", ".choice", ".label", "summary"):
         boxes = arm.boxes(group)
         assert boxes
