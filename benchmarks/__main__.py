@@ -1,23 +1,21 @@
 """`python -m benchmarks [--quick] [--output DIR] [--only TOPIC …] [--peers PEER …]`: measure, and
 write the report.
 
-Ctrl-C ends the measuring; the report is written with what there is.
+The page is there after a quick look at the topics that open it, and is written again after each
+topic. Ctrl-C ends the measuring; the report is written with what there is.
 """
 
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import time
-import traceback
 from pathlib import Path
 
 from . import peers
-from .cases import TOPICS
-from .machine import machine
-from .page import html, markdown, plain_table, results, summary
-from .report import Topic
+from .cases import OPENING, TOPICS
+from .page import plain_table, summary
+from .run import Run
 
 INTERRUPTED = 130
 
@@ -51,46 +49,22 @@ def main() -> int:
     def say(line: str) -> None:
         print(f"[{time.monotonic() - start:5.0f} s] {line}", flush=True)
 
-    about = machine()
-    names = list(options.only or TOPICS)
-    topics: list[Topic] = []
-    for name in names:
-        say(f"{name} …")
-        try:
-            topics.append(_run(name, options.quick, say))
-        except KeyboardInterrupt:
-            left = ", ".join(names[len(topics) :])
-            topics.append(Topic(name, failure=f"Ctrl-C: not measured: {left}"))
-            say(f"Ctrl-C; the report is written without {left}")
-            break
-    interrupted = len(topics) < len(names) or topics[-1].failure.startswith("Ctrl-C")
-    seconds = time.monotonic() - start
-    pages = {"index.html": html, "report.md": markdown, "results.json": results}
-    for file, write in pages.items():
-        _write(options.output / file, write(topics, about, seconds))
+    run = Run(options.output, options.only or list(TOPICS), say)
+    looks = [] if options.only or options.quick else OPENING
+    interrupted = False
+    try:
+        for name in looks:
+            run.measure(name, quick=True, look=True)
+        for name in run.names:
+            run.measure(name, quick=options.quick)
+    except KeyboardInterrupt:
+        interrupted = True
+        run.stop()
+    topics = list(run.topics.values())
     print(
         f"\n{plain_table(topics)}\n\n{summary(topics)}\nThe report: {(options.output / 'index.html').resolve()}"
     )
     return INTERRUPTED if interrupted else 1 if any(topic.failure for topic in topics) else 0
-
-
-def _write(path: Path, text: str) -> None:
-    """The whole file or, after a second Ctrl-C, the one that was there."""
-    new = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        new.write_text(text, encoding="utf-8")
-        new.replace(path)
-    finally:
-        new.unlink(missing_ok=True)
-
-
-def _run(name: str, quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
-    try:
-        return TOPICS[name].topic(quick, say)
-    except Exception:  # noqa: BLE001  the other topics' figures must not be lost, and this failure stands in the report
-        failure = traceback.format_exc()
-        say(f"{name} broke off:\n{failure}")
-        return Topic(name, failure=failure)
 
 
 if __name__ == "__main__":

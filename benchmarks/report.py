@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 
 @dataclass(frozen=True)
@@ -80,15 +80,27 @@ class Table:
 
 @dataclass(frozen=True)
 class Picture:
-    """A drawing: an SVG element as text, and the caption that says what is to be seen."""
+    """A drawing: an SVG element as text, and the caption that says what is to be seen.
+
+    answers: the question at the top of the page that it answers, of `cases.QUESTIONS`; or none.
+    """
 
     caption: str
     svg: str
+    answers: str = ""
+
+    def answering(self, question: str) -> Picture:
+        """The picture for the top of the page."""
+        return replace(self, answers=question)
 
 
 @dataclass
 class Topic:
-    """One section of the report. Failure is the traceback of a topic that broke off, else empty."""
+    """One part of the report. Failure is the traceback of a topic that broke off, else empty.
+
+    Who runs it says the rest: name, section, the seconds that it took, and whether it was a quick
+    look, of fewer samples.
+    """
 
     title: str
     text: str = ""
@@ -96,6 +108,10 @@ class Topic:
     tables: list[Table] = field(default_factory=list)
     pictures: list[Picture] = field(default_factory=list)
     failure: str = ""
+    name: str = ""
+    section: str = ""
+    seconds: float = 0.0
+    quick: bool = False
 
 
 def short(value: float) -> str:

@@ -36,6 +36,7 @@ from .solve.ik.ik import ik
 from .solve.ik_all.ik_all import ik_all
 from .solve.path.follow import follow
 from .version import __version__ as __version__
+from .view.view import view
 
 __all__ = [
     "Chain",
@@ -74,6 +75,7 @@ __all__ = [
     "ur",
     "validate",
     "vendors",
+    "view",
     "xacro",
 ]
 

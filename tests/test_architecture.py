@@ -48,6 +48,7 @@ OPTIONAL: dict[str, str | None] = dict.fromkeys(
         "eaik",
         "k3d",
         "trimesh",
+        "collada",
     )
 )
 OPTIONAL |= {"hypothesis": "poekin/testing/", "typer": "poekin/cli/", "rich": "poekin/cli/"}

@@ -1,4 +1,4 @@
-"""The topics of the report, in order; a new topic is one file here and one line below.
+"""The topics of the report by section, in order; a new topic is one file here and one line below.
 
 Each is a module with `topic(quick, say) -> Topic`: quick asks for a shorter run, say prints a line
 of progress.
@@ -37,35 +37,57 @@ from . import (
     start,
 )
 
-TOPICS = {
-    "robots": robots,
-    "accuracy": accuracy,
-    "accuracy_by_angle": accuracy_by_angle,
-    "accuracy_hunted": accuracy_hunted,
-    "conformance": conformance,
-    "model_truth_tables": model_truth_tables,
-    "model_truth_robots": model_truth_robots,
-    "model_truth_compare": model_truth_compare,
-    "derivatives": derivatives,
-    "operation_counts": operation_counts,
-    "exponential_table": exponential_table,
-    "compiled": compiled,
-    "compile_time": compile_time,
-    "compiled_robots": compiled_robots,
-    "peers": peers,
-    "scaling": scaling,
-    "panda_hand": panda_hand,
-    "inverse_kinematics": inverse_kinematics,
-    "exp_log": exp_log,
-    "ik_all": ik_all,
-    "follow": follow,
-    "calibration": calibration,
-    "calibration_claim": calibration_claim,
-    "calibration_coverage": calibration_coverage,
-    "calibration_outliers": calibration_outliers,
-    "calibration_franka": calibration_franka,
-    "calibration_time": calibration_time,
-    "calibration_poses": calibration_poses,
-    "start": start,
-    "robustness": robustness,
+_SECTIONS = {
+    "Paper": (operation_counts, exponential_table),
+    "Truth": (
+        accuracy,
+        accuracy_by_angle,
+        accuracy_hunted,
+        derivatives,
+        conformance,
+        model_truth_tables,
+        model_truth_robots,
+        model_truth_compare,
+    ),
+    "Speed": (
+        peers,
+        panda_hand,
+        scaling,
+        exp_log,
+        compiled,
+        compiled_robots,
+        compile_time,
+        start,
+    ),
+    "Solve": (inverse_kinematics, ik_all, follow),
+    "Calibrate": (
+        calibration,
+        calibration_claim,
+        calibration_coverage,
+        calibration_outliers,
+        calibration_franka,
+        calibration_time,
+        calibration_poses,
+    ),
+    "Robots": (robots, robustness),
 }
+TOPICS = {
+    module.__name__.rpartition(".")[2]: module
+    for modules in _SECTIONS.values()
+    for module in modules
+}
+SECTION_OF = {
+    module.__name__.rpartition(".")[2]: section
+    for section, modules in _SECTIONS.items()
+    for module in modules
+}
+OPENING = (
+    "operation_counts",
+    "accuracy_by_angle",
+    "peers",
+    "inverse_kinematics",
+    "calibration_claim",
+)
+"""The topics whose pictures answer the questions at the top of the page: a quick look at them comes
+first.
+"""

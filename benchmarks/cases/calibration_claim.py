@@ -152,8 +152,9 @@ def report(
                     "90° − α (rad)", "condition"),
             _curves("The largest difference between the tilted arm's parameters and the nominal ones",
                     [t.delta for t in tilts], [changes(t) for t in tilts], "δ (rad)", "largest change (rad, m)"),
-            _curves("Error on fresh poses where Gauss–Newton ends", [t.delta for t in tilts],
-                    [[max(f.errors[-1], 1e-16) for f in t.found] for t in tilts], "δ (rad)", "error (m)"),
+            _curves("Calibration of an arm whose elbow is tilted by δ: error on fresh poses where Gauss–Newton ends",
+                    [t.delta for t in tilts], [[max(f.errors[-1], 1e-16) for f in t.found] for t in tilts],
+                    "δ (rad)", "error (m)").answering("solve"),
         ],
         tables=[solutions(tilts), descents(tilts), steps(tilts)],
     )  # fmt: skip

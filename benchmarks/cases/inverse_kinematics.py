@@ -223,10 +223,11 @@ def _picture(lines: list[Line]) -> Picture:
     times: dict[str, dict[str, float | None]] = {}
     for name, label, count, time, *_ in lines:
         times.setdefault(str(label), {})[str(name)] = float(time) if count else None
-    return bars(
+    drawn = bars(
         "Time of a target, limits on (µs, logarithmic; shorter is faster); how near each comes stands in the table",
         times, x_label="time (µs a target)",
     )  # fmt: skip
+    return drawn.answering("solve")
 
 
 def _us(timed: Timed, T: np.ndarray) -> str:

@@ -134,7 +134,10 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                  for label, m, charged in CURVES},
                 x_label="number of revolute joints n", y_label=what.lower(),
             )
-            for what, attribute in (("Multiplications", "multiplications"), ("Additions", "additions"))
+            .answering(question)
+            for what, attribute, question in (
+                ("Multiplications", "multiplications", "cost"), ("Additions", "additions", ""),
+            )
         ],
     )  # fmt: skip
 

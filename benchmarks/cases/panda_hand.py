@@ -82,7 +82,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     each = [q.copy() for q in many]
     few = each[:CALLS]
     out = np.empty((4, 4)), np.empty((6, arm.dof))
-    poses, columns = exact_arm.hybrid(text, "panda_hand", [*many[:JUDGED], few[-1]])
+    poses, columns = exact_arm.hybrid(text, "panda_hand", [*many[:JUDGED], few[-1], each[-1]])
+    exact_last = poses[-1], columns[-1]
+    poses, columns = poses[:-1], columns[:-1]
 
     def calls(configurations: list[np.ndarray]) -> Iterator[Arrays]:
         for q in configurations:
@@ -94,6 +96,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 
     def error_of_one(state: Any, result: Arrays) -> float:
         return _error(result[0], result[1], poses[-1], columns[-1], arm.reach)
+
+    def error_of_last(state: Any, result: Arrays) -> float:
+        return _error(result[0], result[1], *exact_last, arm.reach)
 
     def error_of_many(state: Any, result: Arrays) -> float:
         return _error(result[0][:JUDGED], result[1][:JUDGED], poses[:-1], columns[:-1], arm.reach)
@@ -131,10 +136,17 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     loop = Case(
         "Pinocchio", lambda: each, lambda q: _stacked(way(q), arm.dof), angular_first(error_of_many)
     )
+    unkept = Case(
+        "Pinocchio, nothing kept",
+        lambda: each,
+        lambda q: _last(way(q)),
+        angular_first(error_of_last),
+    )
     single = compare(own, ways[faster], pairs=pairs)
     say("one call")
     reused = compare(reusing, ways[faster], pairs=pairs)
     batched = compare(batch, loop, pairs=5 if quick else 15)
+    unstored = compare(batch, unkept, pairs=5 if quick else 15)
     say(f"{CONFIGURATIONS} configurations")
     return Topic(
         "Pose and hybrid Jacobian of the Panda's hand, fingers locked",
@@ -152,10 +164,15 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
             ),
             _figure("the same, into arrays of the caller (out=)", reused),
             _figure(
-                f"the same, {CONFIGURATIONS} configurations in one thread ÷ Pinocchio's Python loop",
+                f"the same, {CONFIGURATIONS} configurations in one thread ÷ Pinocchio's Python loop "
+                "that stores its results, as poekin's batch does",
                 batched,
                 1 / 6,
                 "1/6",
+            ),
+            _figure(
+                f"the same, {CONFIGURATIONS} configurations ÷ Pinocchio's Python loop that keeps none",
+                unstored,
             ),
         ],
         tables=[
@@ -184,9 +201,15 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                         CONFIGURATIONS,
                     ),
                     _times(
-                        f"Pinocchio, {CONFIGURATIONS} in a loop",
+                        f"Pinocchio, {CONFIGURATIONS} in a loop, results stored in two arrays",
                         batched.second,
                         batched.second_error,
+                        CONFIGURATIONS,
+                    ),
+                    _times(
+                        f"Pinocchio, {CONFIGURATIONS} in a loop, results dropped",
+                        unstored.second,
+                        unstored.second_error,
                         CONFIGURATIONS,
                     ),
                 ],

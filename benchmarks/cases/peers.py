@@ -4,6 +4,9 @@ configurations.
 
 from __future__ import annotations
 
+import math
+import os
+import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from poekin import load
+from poekin import Chain, load
 
 from .. import exact_arm, peers
 from ..draw import bars
 from ..harness import Case, Timed, in_turn, ratio
 from ..peers import Arm, Kinematics
-from ..report import Figure, Table, Topic, short
+from ..report import Figure, Picture, Table, Topic, short
 
 MANY, CALLS = 20_000, 20
 NONE = "has no kinematics of arms"
@@ -63,6 +66,8 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         for name, timed in zip(cases, in_turn(list(cases.values()), rounds=rounds), strict=True):
             setattr(times[name], what, timed)
         say({"pose": "pose alone", "both": "pose and Jacobian", "many": f"{MANY} at once"}[what])
+    alone = _alone(chain, q, rounds)
+    say("threads, and writing alone")
     first = own[0].name
     notes = [
         (x.name, x.kinematics.note) for x in tried if x.kinematics is not None and x.kinematics.note
@@ -76,14 +81,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         f"of the process. The error is the largest entry that differs at {CALLS} configurations from what 60 digits "
         "make of the URDF's text, lengths ÷ R.",
         figures=[_figure(library, times, first) for library in tried if library.problem != NONE],
-        pictures=[
-            bars(
-                "Time of pose and Jacobian of the Panda's hand (µs a configuration, logarithmic; shorter is faster)",
-                {name: {"one call": _us(t.both, "both"), f"{MANY} at once": _us(t.many, "many")}
-                 for name, t in times.items() if t.both},
-                x_label="time (µs a configuration)",
-            )
-        ],
+        pictures=[_picture(times, alone)],
         tables=[
             Table(
                 "Time of each (µs a configuration)",
@@ -91,9 +89,58 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                  f"{MANY} at once", "error"),
                 [_row(library, times[library.name]) for library in [*own, *tried]],
             ),
+            Table(
+                f"By the wall clock: {MANY} at once, into arrays that are there",
+                ("what", "time (µs a configuration)"),
+                list(alone.items()),
+            ),
             *([Table("Notes", ("library", "note"), notes)] if notes else []),
         ],
     )  # fmt: skip
+
+
+def _alone(chain: Chain, q: np.ndarray, rounds: int) -> dict[str, float]:
+    """Wall-clock µs a configuration: all at once in one thread and in all, and writing the same
+    arrays with nothing computed.
+    """
+    out = np.zeros((MANY, 4, 4)) + 0.0, np.zeros((MANY, 6, chain.dof)) + 0.0
+
+    def batch(name: str, parallel: bool) -> Case:
+        arm = chain.compile(parallel=parallel)
+        return Case(
+            name,
+            lambda: q,
+            lambda q: arm.fk_jacobian(q, "hybrid", out=out),
+            lambda state, result: math.nan,
+        )
+
+    def write(arrays: tuple[np.ndarray, np.ndarray]) -> None:
+        for array in arrays:
+            array.fill(1.0)
+
+    threads = f"poekin, compiled, out=, {os.cpu_count()} threads"
+    cases = [
+        batch("poekin, compiled, out=, one thread", False),
+        batch(threads, True),
+        Case("writing the arrays alone", lambda: out, write, lambda state, result: math.nan),
+    ]
+    timed = in_turn(cases, rounds=rounds, clock=time.perf_counter)
+    return {case.name: 1e6 * case.time.median / MANY for case in timed}
+
+
+def _picture(times: dict[str, Times], alone: dict[str, float]) -> Picture:
+    many = f"{MANY} at once"
+    rows: dict[str, dict[str, float | None]] = {
+        name: {"one call": _us(t.both, "both"), many: _us(t.many, "many")}
+        for name, t in times.items()
+        if t.both
+    }
+    rows |= {name: {many: found} for name, found in list(alone.items())[1:]}
+    return bars(
+        "Time of pose and Jacobian of the Panda's hand (µs a configuration, logarithmic; shorter is faster)",
+        rows,
+        x_label="time (µs a configuration)",
+    ).answering("fast")
 
 
 def libraries(arm: Arm, say: Callable[[str], None]) -> tuple[list[Library], list[Library]]:

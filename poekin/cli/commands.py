@@ -12,7 +12,7 @@ from . import list as names
 from .calibration import apply, calibrate
 from .kinematics import fk, follow, ik, jacobian, singularity
 from .model import takes_models
-from .models import axes, compare, count, dh, emit, info, urdf, validate
+from .models import axes, compare, count, dh, emit, info, urdf, validate, view
 
 app = typer.Typer(
     add_completion=False,
@@ -23,7 +23,7 @@ app = typer.Typer(
 
 COMMANDS: tuple[ModuleType, ...] = (
     *(info, fk, jacobian, singularity, ik, follow, calibrate, apply, validate, urdf, compare),
-    *(conform, axes, dh, count, emit, names, warm),
+    *(view, conform, axes, dh, count, emit, names, warm),
 )
 # Unknown options of these pass through to q, so that -0.5 is a number; there are no one-letter
 # options that it could be.

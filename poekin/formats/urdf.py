@@ -1,4 +1,4 @@
-"""URDF in, Robot out: only the text counts, no mesh, no ROS, no xacro.
+"""URDF in, Robot out: only the text counts, no ROS, no xacro, and no mesh is opened.
 
 Source: the URDF specification (elements <robot>, <link>, <joint>). Where files depart from it, as
 real ones do:
@@ -168,7 +168,7 @@ def _joint(fields: Fields, repairs: Repairs, quaternions: bool) -> Joint:
         cast("JointKind", kind),
         ends[0],
         ends[1],
-        _origin(_first(fields, "origin", repairs), repairs, quaternions),
+        origin_of(_first(fields, "origin", repairs), quaternions, repairs),
         mimic=_mimic(fields, kind),
         safety_controller=_safety_controller(fields, repairs),
         **moving,
@@ -185,7 +185,12 @@ def _first(fields: Fields, tag: str, repairs: Repairs) -> Fields | None:
     return next(iter(found), None)
 
 
-def _origin(element: Fields | None, repairs: Repairs, quaternions: bool) -> Array:
+def origin_of(
+    element: Fields | None,
+    quaternions: bool,
+    repairs: Repairs | None = None,
+) -> Array:
+    """Pose of an <origin>, identity where there is none; quaternions, whether quat_xyzw counts."""
     if element is None:
         return np.eye(4)
     xyz = element.vector("xyz") or _ZERO
@@ -196,8 +201,9 @@ def _origin(element: Fields | None, repairs: Repairs, quaternions: bool) -> Arra
     if turn is None:
         return rpy.pose(xyz, turns or _ZERO)
     if not quaternions:
-        text = f'{element.what}: quat_xyzw is not read: it needs <robot version="1.1">'
-        repairs.quaternions.append(Repair(element.line, text))
+        if repairs is not None:
+            text = f'{element.what}: quat_xyzw is not read: it needs <robot version="1.1">'
+            repairs.quaternions.append(Repair(element.line, text))
         return rpy.pose(xyz, turns or _ZERO)
     if turns is not None:
         raise element.fault("either rpy or quat_xyzw expected, got both")

@@ -15,13 +15,15 @@ class Source:
 
     Fields: name, a file or whatever else the text came from; link_lines and joint_lines, the line
     of each link and joint in the robot's order, empty where there are no lines to speak of; text,
-    the text itself where it was URDF, which others can then read, and which can be edited in place.
+    the text itself where it was URDF, which others can then read, and which can be edited in place;
+    mjcf, the text where it was MJCF. What the robot looks like is read out of these when it is drawn.
     """
 
     name: str
     link_lines: tuple[int, ...] = ()
     joint_lines: tuple[int, ...] = ()
     text: str | bytes = field(default=b"", repr=False, compare=False)
+    mjcf: str | bytes = field(default=b"", repr=False, compare=False)
 
     def __str__(self) -> str:
         return self.name

@@ -65,7 +65,9 @@ class SceneArm:
 
 @dataclass(frozen=True, slots=True)
 class PathMark:
-    """Stretch of a path, rows first to last: "switch", "singular" or "limit", and its sentence."""
+    """Stretch of a path, rows first to last, the kind of what happens there ("switch", "singular",
+    "limit", as `PathEvent` has them), and its sentence.
+    """
 
     first: int
     last: int
@@ -122,7 +124,9 @@ class Scene:
     motion, choices, tables
         What else there is.
     exaggerated : float
-        Largest factor by which the page can enlarge the differences of two arms; 1 for none.
+        Largest factor k by which the page can enlarge the differences of two arms, 1 for none; k is
+        then the last coordinate of the second arm, and the last number of its shift when the page
+        opens.
     """
 
     title: str

@@ -9,6 +9,7 @@ import pytest
 
 from benchmarks import __main__ as command
 from benchmarks import peers
+from benchmarks import run as measuring
 from benchmarks.report import Figure, Topic
 
 
@@ -26,7 +27,10 @@ class _Interrupted:
 
 @pytest.fixture
 def run(monkeypatch, tmp_path):
-    monkeypatch.setattr(command, "TOPICS", {"first": _Done, "second": _Interrupted, "third": _Done})
+    topics = {"first": _Done, "second": _Interrupted, "third": _Done}
+    for place in (command, measuring):
+        monkeypatch.setattr(place, "TOPICS", topics)
+    monkeypatch.setattr(command, "OPENING", ("first",))
 
     def run(*words: str) -> int:
         monkeypatch.setattr(sys, "argv", ["benchmarks", "--output", str(tmp_path), *words])
@@ -58,7 +62,7 @@ def test_ctrl_c_while_a_page_is_written_leaves_the_page_that_was_there(run, tmp_
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(command.Path, "replace", interrupted)
+    monkeypatch.setattr(measuring.Path, "replace", interrupted)
     with pytest.raises(KeyboardInterrupt):
         run("--only", "first")
     assert [path.name for path in tmp_path.iterdir()] == ["index.html"]

@@ -42,7 +42,7 @@ DEFAULTS: dict[str, dict[str, object]] = {
     "conform": {"at_most": "good", "seconds": 600.0, "limit": 60.0, "json": False},
     "count": {"json": False},
     "dh": {"convention": "standard", "json": False},
-    "emit": {"frame": "hybrid", "single": False, "force": False},
+    "emit": {"frame": "hybrid", "all_links": False, "single": False, "force": False},
     "fk": {"json": False},
     "follow": {
         "fastest": False,

@@ -26,6 +26,8 @@ HOSTILE = (
     '"""\nimport os\nraise SystemExit(3)\n"""',
     "'''\nraise SystemExit(3)\n'''",
     "{q} %s %n // /* ",
+    "</script><script>alert(1)</script>",
+    "<!--<script>",
     "ü\u202eevil\u2028\x00\x1b[31m",
     "\ud800",
     "x" * 500,
@@ -106,6 +108,30 @@ def bound(chain: pk.Chain, q: np.ndarray, roundoff: float = 2.0**-53) -> float:
     """
     x = np.abs(q @ chain.coupling.T + chain.offset).sum(axis=-1).max(initial=0.0)
     return 2 * roundoff * (8 * (len(chain.kinds) + 1) + 4 * x) * chain.reach
+
+
+def link_bounds(robot: pk.Robot, q: np.ndarray) -> np.ndarray:
+    """Twice what rounding leaves of each link's pose: 8 u R for each product above it and 4 u R for
+    each unit of x, R the lengths on its way (`bound`).
+    """
+    x = {}
+    for leaf in robot.leaves:
+        chain = robot.chain(tip=leaf)
+        own = q[:, [robot.q_names.index(name) for name in chain.q_names]]
+        moved = np.abs(own @ chain.coupling.T + chain.offset).max(axis=0)
+        x.update(zip(chain.joint_names, moved, strict=True))
+    above = {joint.child: joint for joint in robot.joints}
+    bounds = []
+    for link in robot.links:
+        depth, moved, reach = 1, 0.0, 1.0
+        while link in above:
+            joint = above[link]
+            depth += 1
+            moved += x.get(joint.name, 0.0)
+            reach += np.linalg.norm(joint.origin[:3, 3]) + (joint.kind == "prismatic")
+            link = joint.parent
+        bounds.append(2 * 2.0**-53 * (8 * depth + 4 * moved) * reach)
+    return np.array(bounds)
 
 
 def operations(function: ast.FunctionDef) -> tuple[int, int]:

@@ -1,20 +1,19 @@
-"""Emitted JavaScript, by Node: to the last bit what the emitted Python computes, and safe from any name."""
+"""Emitted JavaScript, by Node: to the last bit what the emitted Python computes, and safe from any name.
+
+All links and chains of the robots of example-robot-data: tests/view/test_kinematics.py.
+"""
 
 from __future__ import annotations
 
-import json
 import re
-import warnings
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.errors import InputError, PoekinWarning
+from poekin.errors import InputError
 from poekin.formats import emit
-from poekin.formats.erd import example_robots
 from tests.formats.emitted import (
     ARMS,
     FRAMES,
@@ -22,12 +21,13 @@ from tests.formats.emitted import (
     arm,
     bound,
     expected,
+    link_bounds,
     module,
     suffix,
     with_name,
 )
-from tests.formats.urdf_in_place.in_place_cases import longest
-from tests.nodejs import run_by_node
+from tests.model.test_robot import two_arms
+from tests.nodejs import Calls
 
 CASES: list[tuple[str, Any]] = [
     (name, frame)
@@ -35,45 +35,6 @@ CASES: list[tuple[str, Any]] = [
     for frame in (*FRAMES, 0)
     if arm(name).kinds or frame in FRAMES[:3]
 ]
-RUN = """
-import { readFileSync } from "node:fs";
-const jobs = JSON.parse(readFileSync("jobs.json", "utf8"));
-const found = [];
-for (const { file, name, calls } of jobs) {
-    const functions = await import("./" + file);
-    found.push(calls.map((call) => functions[name](...call)).map(
-        (x) => (x.T ? [...x.T, ...x.J] : [...x])
-    ));
-}
-console.log(JSON.stringify(found));
-"""
-
-
-class Calls:
-    """Calls of functions of emitted texts, all made in one process."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.jobs: list[dict[str, Any]] = []
-        self.wanted: list[np.ndarray] = []
-
-    def add(self, text: str, name: str, calls: list[list[np.ndarray]], wanted: Any) -> None:
-        """Calls, each a list of arguments, and what they have to return, a row each."""
-        file = f"case{len(self.jobs)}.mjs"
-        (self.folder / file).write_text(text, encoding="ascii")
-        arguments = [[x.tolist() for x in call] for call in calls]
-        self.jobs.append({"file": file, "name": name, "calls": arguments})
-        self.wanted.append(np.asarray(wanted))
-
-    def run(self) -> list[tuple[np.ndarray, np.ndarray]]:
-        """What was returned and what had to be, for each job."""
-        (self.folder / "run.mjs").write_text(RUN, encoding="ascii")
-        (self.folder / "jobs.json").write_text(json.dumps(self.jobs), encoding="ascii")
-        found = json.loads(run_by_node(self.folder, "run.mjs"))
-        return [
-            (np.array(got, float).reshape(wanted.shape), wanted)
-            for got, wanted in zip(found, self.wanted, strict=True)
-        ]
 
 
 @pytest.fixture
@@ -122,21 +83,17 @@ def test_from_q_it_is_the_chain(calls):
         assert np.abs(got - wanted).max(initial=0.0) <= within
 
 
-def test_it_is_the_longest_chain_of_each_robot_of_example_robot_data(calls):
+def test_of_a_robot_it_is_the_poses_of_all_links(calls):
     bounds = []
-    for path in example_robots()[0].values():
-        with warnings.catch_warnings(action="ignore", category=PoekinWarning):
-            chain = longest(pk.load(path))
-        if chain is None:
-            continue  # no joint moves
-        q = np.random.default_rng(0).uniform(-1, 1, (3, chain.dof))
-        T, J = chain.fk_jacobian(q, "hybrid")
-        text = emit.javascript(chain, "hybrid")
-        calls.add(text, "fk_jacobian_hybrid", [[row] for row in q], flat(T, J))
-        bounds.append(bound(chain, q))
-    assert len(bounds) > 60
+    for robot in (pk.load("panda"), two_arms(), two_arms().coupled("r = r - 0.5 h")):
+        q = np.random.default_rng(9).uniform(-2, 2, (5, robot.dof))
+        T = np.stack(list(robot.fk(q).values()), axis=1).reshape(5, -1)
+        text = emit.javascript(robot)
+        calls.add(text, "link_poses", [[row] for row in q], T)
+        calls.add(text, "link_poses", [[row, np.ones(T.shape[1])] for row in q], T)
+        bounds += 2 * [np.repeat(link_bounds(robot, q), 16)]
     for (got, wanted), within in zip(calls.run(), bounds, strict=True):
-        assert np.abs(got - wanted).max(initial=0.0) <= within
+        assert (np.abs(got - wanted) <= within).all()
 
 
 def test_results_go_into_the_arrays_given_and_may_overlap_q(calls):
@@ -165,7 +122,11 @@ def test_a_hostile_name_stays_in_its_comment(name):
     )
     without, plain = (re.sub(r"/\*.*?\*/", "", text, count=1, flags=re.DOTALL) for text in texts)
     assert without == plain
-    assert texts[0].isascii()
+    of_links = emit.javascript(pk.Robot(name, [name], []), origin=name)
+    for text in (texts[0], of_links):
+        assert text.isascii()
+        assert "</" not in text
+        assert "<!--" not in text
 
 
 def test_it_needs_sine_and_cosine_alone_and_says_what_it_costs():
@@ -190,3 +151,5 @@ def test_what_cannot_be_emitted_is_refused():
         emit.javascript(arm("panda"))
     with pytest.raises(InputError, match=r"^origin: expected a text, got 3$"):
         emit.javascript(arm("panda"), "body", origin=3)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"^frame: expected with a Chain only.*; got 'body'$"):
+        emit.javascript(pk.load("panda"), "body")

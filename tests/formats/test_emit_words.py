@@ -9,7 +9,13 @@ import pytest
 
 import poekin as pk
 from poekin.formats.emit import messages
-from poekin.formats.emit.messages import angle_lines, header_lines, make_tasks, quote_ascii
+from poekin.formats.emit.messages import (
+    angle_lines,
+    header_lines,
+    make_tasks,
+    quote_ascii,
+    robot_lines,
+)
 from poekin.formats.emit.statements import by_outputs
 
 from .emitted import arm
@@ -47,6 +53,34 @@ def test_the_arm_is_told_line_by_line():
     assert one[1:4] == ["", "  q[0]  rad  'joint1'", ""]
 
 
+def test_a_robot_is_told_line_by_line():
+    joints = [
+        pk.Joint("lift", "prismatic", "w", "a", limits=(0, 0.5)),
+        pk.Joint("turn", "revolute", "a", "b"),
+        pk.Joint("free", "floating", "w", "c"),
+    ]
+    robot = pk.Robot("crane", ["w", "a", "b", "c"], joints)
+    lines = robot_lines(robot)
+    assert lines == [
+        "Robot 'crane': 4 links, 2 coordinates. Units: rad, m.",
+        "",
+        "  q[0]  m  'lift', 0 ... 0.5",
+        "  q[1]  rad  'turn'",
+        "",
+        "T, 4 x 4 x 4 row by row: (R, p; 0, 1), the poses of the links in the frame of",
+        "'w'; p in m. Floating and planar joints are at their zero pose.",
+        "  T[0]  'w'",
+        "  T[16]  'a'",
+        "  T[32]  'b'",
+        "  T[48]  'c'",
+    ]
+    assert robot_lines(robot.coupled("turn = turn + lift"))[4:7] == [
+        "",
+        "Joints that follow sums of coordinates:",
+        "  'turn = lift + turn'",
+    ]
+
+
 @pytest.mark.parametrize("frame, says", [
     ("body", ["J is the body Jacobian: axes of the tip, v of the origin of the tip."]),
     ("hybrid", ["J is the hybrid Jacobian: axes of the base, v of the origin of the tip."]),
@@ -66,10 +100,15 @@ def test_angles_are_sums_of_a_base_coordinates_and_an_offset():
         "x[1] = 2 q[0] + -1 q[1] + 0.0267391",
     ]
     assert [task.name for task in coupled] == ["fk", "jacobian_body", "fk_jacobian_body"]
-    assert [(task.pose, task.jacobian) for task in coupled] == [
-        (True, False),
-        (False, True),
-        (True, True),
+    assert [(task.poses, task.jacobian) for task in coupled] == [
+        (1, False),
+        (0, True),
+        (1, True),
+    ]
+    assert [task.sizes for task in coupled] == [
+        {"T": 16, "J": 0},
+        {"T": 0, "J": 12},
+        {"T": 16, "J": 12},
     ]
     assert [task.name for task in make_tasks(CRANE.compile(), 1)] == [
         "fk",
@@ -83,15 +122,18 @@ def test_angles_are_sums_of_a_base_coordinates_and_an_offset():
 def test_a_name_is_cut_after_eighty_characters_and_cannot_end_a_comment():
     assert quote_ascii("x" * 80) == f"'{'x' * 80}'"
     assert quote_ascii("x" * 81) == f"'{'x' * 77}...'"
-    assert quote_ascii("a b_~!*?\\\"'`\n\u00fc") == (
-        "'a b_~!<U+002A><U+003F><U+005C><U+0022><U+0027><U+0060><U+000A><U+00FC>'"
+    assert quote_ascii("a b_~!<*?\\\"'`\n\u00fc") == (
+        "'a b_~!<U+003C><U+002A><U+003F><U+005C><U+0022><U+0027><U+0060><U+000A><U+00FC>'"
     )
 
 
 def test_the_pose_is_written_row_by_row_and_the_jacobian_after_it():
     outputs = list("abcdefghijklmn")
-    assert by_outputs(outputs, True) == ([*"abcjdefkghil", 0.0, 0.0, 0.0, 1.0], ["m", "n"])
-    assert by_outputs(outputs, False) == ([], outputs)
+    last_row = [0.0, 0.0, 0.0, 1.0]
+    assert by_outputs(outputs, 1) == ([*"abcjdefkghil", *last_row], ["m", "n"])
+    assert by_outputs(outputs, 0) == ([], outputs)
+    two = [*"abcjdefkghil", *last_row, *"ABCJDEFKGHIL", *last_row]
+    assert by_outputs(list("abcdefghijklABCDEFGHIJKL"), 2) == (two, [])
 
 
 def test_the_cheapest_frame_has_its_pose_in_the_frame_of_its_joint():

@@ -190,15 +190,19 @@ def _in_one_unit(
     return _compared(*to_one_unit(a, b, ratio), asked, mistake)
 
 
-def _unmatched(n_a: int, n_b: int, asked: Asked) -> _Compared:
+def _unmatched(a: Chain, b: Chain, asked: Asked) -> _Compared:
     """The comparison of chains whose numbers of joints differ, none of which can be dropped."""
+    n_a = len(a.screws)
+    n_b = len(b.screws)
     more = abs(n_a - n_b)
     which = count_words(more)
     if more > MOST:
         which += " at the ends"
     end = f"no {which} can be dropped so that the rest agree"
     verdict = f"the models differ: {n_a} joints against {n_b}, and {end}"
-    return _Compared(_comparison(asked, outcome="differ", verdict=verdict), max(n_a, n_b), False)
+    b = uncoupled_at_zero(b)
+    result = _comparison(asked, outcome="differ", verdict=verdict, a=a, b=b)
+    return _Compared(result, max(n_a, n_b), False)
 
 
 def _comparison(asked: Asked, **found: Any) -> Comparison:
@@ -214,7 +218,7 @@ def _compared(
     """The comparison of two chains of which a mistake has been put right."""
     pair = matched(a, b, asked)
     if pair is None:
-        return _unmatched(len(a.screws), len(b.screws), asked)
+        return _unmatched(a, b, asked)
     found = _diagnosis(pair, asked)
     reading = found.reading
     joints = tuple(joint_rows(pair, reading, asked.tol))
@@ -239,6 +243,8 @@ def _compared(
         aligned_to=found.aligned_to,
         mistake=mistake.name,
         length_ratio=mistake.length_ratio,
+        a=a,
+        b=pair.b,
     )
     if asked.strict:
         stand = as_they_stand(pair.a, pair.b, asked.tol)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from ...groups.arrays import Array
+from ...model.chain import Chain
 from ...results import Result
 from ..amounts import Unit, amount, joint_unit
 from .alignment.diagnosis import AlignedTo
@@ -176,9 +177,13 @@ class Comparison(Result):
     length_ratio : float
         Lengths of b by lengths of a: 1000 or 0.001 where one model is in millimetres and the other
         in metres, 1 otherwise. All but `before` is then of both in one unit.
+    a, b : Chain
+        The models as they were compared, in one unit and of one hand; b with every joint its own
+        coordinate, 0 where b's coordinates are, and without the joints that can be dropped.
     """
 
     derived: ClassVar = ("equal",)
+    left_out: ClassVar = ("a", "b")
 
     outcome: Outcome
     verdict: str
@@ -200,6 +205,8 @@ class Comparison(Result):
     samples: int
     seed: int
     length_ratio: float = 1.0
+    a: Chain = field(repr=False)
+    b: Chain = field(repr=False)
 
     @property
     def equal(self) -> bool:

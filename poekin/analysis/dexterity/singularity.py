@@ -5,7 +5,7 @@ which way that is.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -70,9 +70,14 @@ class Singularity(Result):
         Names of the coordinates.
     unit : {"rad", "m", "rad and m"}
         Unit of `distance`, and of the coordinates that are those of their joints.
+    chain : Chain
+        The arm.
+    q : (m,) ndarray
+        The configuration, rad or m.
     """
 
     derived: ClassVar = ("smallest", "condition")
+    left_out: ClassVar = ("chain", "q")
 
     singular: bool
     tolerance: float
@@ -89,6 +94,8 @@ class Singularity(Result):
     joint_ratios: Array
     q_names: tuple[str, ...]
     unit: Unit
+    chain: Chain = field(repr=False)
+    q: Array = field(repr=False)
 
     @property
     def smallest(self) -> float:
@@ -255,6 +262,8 @@ def singularity(
         joint_ratios=ratios,
         q_names=chain.q_names,
         unit=_unit(chain),
+        chain=chain,
+        q=q,
     )
 
 

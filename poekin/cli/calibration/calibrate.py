@@ -21,7 +21,9 @@ from ...solve.calibration.exact.from_fk_result import FromFk
 from ...solve.calibration.measurements.header import Convention
 from ...solve.calibration.report import changes
 from ...solve.calibration.report.summary import MOST_OUTLIERS
+from ...view.view import view
 from ..array_files import check_apart, check_place
+from ..formats import draw as pages
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
 from ..output import Progress, as_json, complain, name, say, table
@@ -161,6 +163,7 @@ def command(
     output: Output = None,
     convention: DhConvention = "standard",
     report: Report = None,
+    draw: pages.Draw = None,
     exact: Exact = False,
     json: Json = False,
 ) -> None:
@@ -171,7 +174,8 @@ def command(
     for place in outputs.paths:
         check_place(place, ENDINGS)
     check_place(report, (".html", ".htm"))
-    check_apart([*outputs.paths, report], model=file, measurements=files)
+    pages.check(draw)
+    check_apart([*outputs.paths, report, draw], model=file, measurements=files)
     choice(convention, CONVENTIONS, "convention")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
@@ -206,8 +210,12 @@ def command(
             found = _calibrated(chain, given, options)
     except (InputError, UnknownName) as fault:
         raise type(fault)(_as_options(str(fault))) from fault
+    drawn = None if draw is None else view(found)
     try:
         outputs.write(found, robot, given.sources)
+        if drawn is not None and draw is not None:
+            drawn.save(draw)
+            outputs.written.append(str(draw))
     finally:  # no file that cannot be written costs the result
         if json:
             more = {} if of_fk is None else {"exact": of_fk.to_dict()}

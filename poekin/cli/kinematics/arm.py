@@ -14,6 +14,7 @@ from typer import Argument, Option
 from ...errors import InputError, quote
 from ...formats.text import csv_rows
 from ...model.chain import Chain
+from ...model.robot import Robot
 from .. import array_files
 from ..formats.units import SI, SaidUnits, beyond_limits
 from ..model import model
@@ -57,7 +58,7 @@ ROWS_AT_ONCE = 20_000
 
 @dataclass(frozen=True)
 class ChainArguments:
-    """Chain of a file and configurations (N, m) in rad and m; single where the user gave one Q; the
+    """Robot and chain of a file, and configurations (N, m) in rad and m; single where the user gave one Q; the
     units that they are shown in.
     """
 
@@ -66,6 +67,7 @@ class ChainArguments:
     q: np.ndarray
     single: bool
     units: SaidUnits = SI
+    model: Robot | None = None
 
 
 def take(
@@ -91,7 +93,8 @@ def take(
     chain = robot.chain(base=base, tip=tip)
     if given is None:
         poses.check_count(values, chain, remedy="; or --input with a file" * many)
-        return _in_si(ChainArguments(robot.name, chain, values[None], True), units)
+        arm = ChainArguments(robot.name, chain, values[None], True, model=robot)
+        return _in_si(arm, units)
     if words:
         raise InputError(
             f"either coordinates or --input expected, got both ({quote(words[0])} and {quote(given)})"
@@ -99,7 +102,7 @@ def take(
     with Progress(f"reading {array_files.called(given)}") as progress:
         columns = (units or SI).columns(chain)
         rows = array_files.read_configurations(given, columns, progress)
-    return _in_si(ChainArguments(robot.name, chain, rows, False), units)
+    return _in_si(ChainArguments(robot.name, chain, rows, False, model=robot), units)
 
 
 def _in_si(arm: ChainArguments, units: SaidUnits | None) -> ChainArguments:

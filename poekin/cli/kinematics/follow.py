@@ -16,7 +16,9 @@ from ...model.chain import Chain
 from ...solve.ik.task import TaskName
 from ...solve.path.follow import follow
 from ...solve.path.path_result import PathResult
+from ...view.view import view
 from .. import array_files
+from ..formats import draw as pages
 from ..formats.units import Deg, Mm, SaidUnits
 from ..model import model
 from ..output import Progress, as_json, complain, heading, path_text, say
@@ -100,6 +102,7 @@ def command(
     seed: poses.Seed = 0,
     output: Output = None,
     plot: Plot = None,
+    draw: pages.Draw = None,
     json: Json = False,
 ) -> None:
     """Joints along the path of poses in --input, without a jump where there is such a way.
@@ -115,7 +118,8 @@ def command(
     array_files.check_place(plot, (".svg",))
     if given is None:
         raise InputError("--input: a file of poses expected, got none")
-    array_files.check_apart([output, plot], model=file, poses=given)
+    pages.check(draw)
+    array_files.check_apart([output, plot, draw], model=file, poses=given)
     untimed = duration is None and not fastest
     if untimed and (speed is not None or acceleration is not None):
         raise InputError(
@@ -142,9 +146,12 @@ def command(
             seed=seed,
             progress=progress,
         )
+    drawn = None if draw is None else view(path, robot=robot)
     if fastest:
         report = heading(robot.name, chain) | _report(path)
-        raise Exit(fastest_files.give(path, limit_a, limit_v, output, plot, json, report))
+        code = fastest_files.give(path, limit_a, limit_v, output, plot, json, report)
+        pages.save(drawn, draw, pages.teller(json, output is None))
+        raise Exit(code)
     svg = ""
     if plot is not None:
         svg = path.plot()
@@ -153,6 +160,7 @@ def command(
         write_whole(plot, svg.encode())
         if not json:
             say(f"joints drawn in {path_text(plot)}")
+    pages.save(drawn, draw, pages.teller(json, output is None))
     raise Exit(0 if path.ok else poses.UNSOLVED)
 
 

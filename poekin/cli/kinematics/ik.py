@@ -13,7 +13,9 @@ from ...model.chain import Chain
 from ...solve.ik.ik import ik
 from ...solve.ik.solution import Solution
 from ...solve.ik.task import TaskName
+from ...view.view import view
 from .. import array_files
+from ..formats import draw as pages
 from ..formats.units import Deg, Mm, SaidUnits
 from ..model import model
 from ..output import Progress, as_json, complain, heading, name, path_text, say
@@ -55,13 +57,15 @@ def command(
     no_limits: poses.NoLimits = False,
     seed: poses.Seed = 0,
     output: poses.Output = None,
+    draw: pages.Draw = None,
     json: Json = False,
 ) -> None:
     """Joints with which the link --tip has a pose in the link --base. Exit code 0 all solved, 1
     some not, 2 error.
     """
     array_files.check_place(output)
-    array_files.check_apart([output], model=file, poses=given)
+    pages.check(draw)
+    array_files.check_apart([output, draw], model=file, poses=given)
     units = SaidUnits(mm, deg)
     T = poses.read(words, given, format, quaternion, units)
     robot = model(file)
@@ -79,7 +83,10 @@ def command(
             seed=seed,
             progress=progress,
         )
+    drawn = None if draw is None else view(found, robot=robot)
     _give(robot.name, chain, found, given is None, output, json, units)
+    table = given is not None and output is None
+    pages.save(drawn, draw, pages.teller(json, table))
     raise Exit(0 if found.success.all() else poses.UNSOLVED)
 
 

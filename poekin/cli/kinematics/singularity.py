@@ -11,6 +11,9 @@ from ...analysis.dexterity.jacobian_part import TOLERANCE
 from ...analysis.dexterity.manipulability import manipulability
 from ...analysis.dexterity.singularity import singularity
 from ...errors import InputError
+from ...view.view import view
+from .. import array_files
+from ..formats import draw as pages
 from ..output import as_json, heading, name, number, say, table
 from .arm import Base, File, Json, Numbers, Tip, take
 
@@ -57,11 +60,14 @@ def command(
     base: Base = None,
     part: PartOption = None,
     tolerance: Tolerance = TOLERANCE,
+    draw: pages.Draw = None,
     json: Json = False,
 ) -> None:
     """Distance of Q from a singularity, and the motion that is lost there. Exit code 0 regular, 1
     singular, 2 error.
     """
+    pages.check(draw)
+    array_files.check_apart([draw], model=file)
     words = (at or "").replace(",", " ").split()
     if at is not None and not words:
         raise InputError("--at: coordinates expected, got nothing")
@@ -70,6 +76,9 @@ def command(
     here = arm.q[0]
     result = singularity(chain, here, part=part.value if part else None, tolerance=tolerance)
     measures = manipulability(chain, here)
+    drawn = None
+    if draw is not None:
+        drawn = view(result, robot=arm.model)
     if json:
         head = heading(arm.robot, chain) | {"q": here}
         end = {"summary": result.summary(), "manipulability": measures.to_dict()}
@@ -80,4 +89,5 @@ def command(
             (p, *(number(float(x), 4) for x in vars(m).values())) for p, m in vars(measures).items()
         ]
         table(("Jacobian (rad, m)", "Yoshikawa", "condition", "smallest singular value"), rows)
+    pages.save(drawn, draw, pages.teller(json, table=False))
     raise Exit(SINGULAR if result.singular else 0)

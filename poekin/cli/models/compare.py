@@ -8,7 +8,7 @@ from typing import Annotated
 from typer import Argument, Exit, Option
 
 from ...analysis.compare.compare import compare
-from ...analysis.compare.comparison import Comparison, JointComparison, Outcome
+from ...analysis.compare.comparison import Comparison, Outcome
 from ...analysis.compare.differences.conventions import (
     BUT_NAMES,
     CONVENTIONS,
@@ -16,15 +16,20 @@ from ...analysis.compare.differences.conventions import (
     checked,
 )
 from ...analysis.compare.differences.ends import Chosen, Remedy, remedies
+from ...analysis.compare.joint_table import HEADS, joint_row
 from ...checks import positive
 from ...errors import InputError, join_names
 from ...model.robot import Robot
+from ...view.page import page
+from ...view.scenes.comparison import comparison_scene
+from .. import array_files
+from ..formats import draw as pages
 from ..formats.frame_numbers import frame_layout, frame_lines, frame_numbers
 from ..formats.units import Deg, Mm
 from ..kinematics.arm import FILE_HELP, Base, Json, Seed, Tip
 from ..kinematics.poses import Quaternion
 from ..model import models
-from ..output import as_json, name, number, path_text, say, table
+from ..output import as_json, name, path_text, say, table
 
 DEFAULT = ",".join(BUT_NAMES)
 EXIT: dict[Outcome, int] = {"same": 0, "differ": 1, "conventions": 3}
@@ -87,16 +92,20 @@ def command(
     deg: Deg = None,
     samples: Samples = 200,
     seed: Seed = 0,
+    draw: pages.Draw = None,
     json: Json = False,
 ) -> None:
     """Two models of one arm, joint by joint: axes, zero positions, directions. Exit code 0 the same,
     1 differ, 2 error, 3 the same arm in other conventions.
     """
+    pages.check(draw)
+    if draw is not None:
+        array_files.check_apart([draw], a=a, b=b)
     counted = _conventions(same)
     chosen = frame_layout(format, quaternion, mm, deg)
     robot_a, robot_b = models(a, b)
-    one = _chosen(robot_a, a, "--tip", base, tip)
-    other = _chosen(robot_b, b, "--tip-b", base_b, tip_b, base, tip)
+    one = chosen_chain(robot_a, a, "--tip", base, tip)
+    other = chosen_chain(robot_b, b, "--tip-b", base_b, tip_b, base, tip)
     positive(tol_mm, "--tol-mm")
     positive(tol_deg, "--tol-deg")
     result = compare(
@@ -109,12 +118,17 @@ def command(
         samples=samples,
         seed=seed,
     )
+    drawn = None
+    if draw is not None:
+        title = f"{robot_a.name} and {robot_b.name}"
+        drawn = page(comparison_scene(result, title=title))
     if json:
         frames = {} if chosen is None else frame_numbers(result, chosen)
         files = {"a": _where(a, one), "b": _where(b, other)}
         print(as_json(files | result.to_dict() | frames))
     else:
         _show(result, one, other, [] if chosen is None else frame_lines(result, chosen))
+    pages.save(drawn, draw, pages.teller(json, table=False))
     raise Exit(EXIT[result.outcome])
 
 
@@ -125,7 +139,7 @@ def _conventions(same: str) -> tuple[Convention, ...]:
     return checked(words)
 
 
-def _chosen(
+def chosen_chain(
     robot: Robot,
     file: str,
     option: str,
@@ -134,6 +148,10 @@ def _chosen(
     base_like: str | None = None,
     tip_like: str | None = None,
 ) -> Chosen:
+    """Chain of a robot; without base or tip those of the other model, where it has such links.
+
+    Raises: InputError where there are several tips.
+    """
     if base is None and base_like in robot.links:
         base = base_like
     if tip is None and tip_like in robot.links:
@@ -157,11 +175,9 @@ def _show(
 ) -> None:
     ends = [name(end) for arm in (a, b) for end in (arm.chain.base, arm.chain.tip)]
     say("A: {} → {}; B: {} → {}\n".format(*ends))
-    rows = [_joint_row(joint, result) for joint in result.joints]
+    rows = [joint_row(joint, result) for joint in result.joints]
     if rows:
-        lengths = ("angle (deg)", "normal (mm)", "at the arm (mm)")
-        heads = ("", "joint", "kind", "axis", *lengths, "zero", "direction", "limits")
-        table(heads, rows, left=4)
+        table(HEADS, rows, left=4)
     for remedy in remedies(result, a, b):
         say(f"Remedy: {_remedy_words(remedy)}")
     # The outcome comes last.
@@ -174,33 +190,3 @@ def _remedy_words(remedy: Remedy) -> str:
     if remedy.model == "b":
         option += "-b"
     return f"model {remedy.model}: {remedy.reason}: {option} {name(remedy.link)}"
-
-
-def _joint_row(joint: JointComparison, result: Comparison) -> tuple[object, ...]:
-    slides = joint.unit == "m"
-    coordinate = _mm if slides else _deg
-    tol = result.tol_position if slides else result.tol_rotation
-    return (
-        joint.number,
-        " / ".join(dict.fromkeys((joint.name_a, joint.name_b))),
-        " / ".join(dict.fromkeys((joint.kind_a, joint.kind_b))),
-        "DIFFERS" if joint.axis_differs else "same",
-        _deg(joint.angle, result.tol_rotation),
-        _mm(joint.normal, result.tol_position),
-        _mm(joint.shift, result.tol_position),
-        f"{coordinate(joint.zero_offset, tol)} {'mm' if slides else 'deg'}",
-        "flipped" if joint.reversed else "same",
-        " ".join(coordinate(bound, tol) for bound in joint.limits),
-    )
-
-
-def _mm(value: float | None, tol: float) -> str:
-    """A length in mm to four digits, 0 far below the tolerance; nothing for None."""
-    if value is None:
-        return ""
-    return number(1e3 * value * (abs(value) >= 1e-6 * tol), 4)
-
-
-def _deg(value: float, tol: float) -> str:
-    """An angle in degrees to four digits, 0 far below the tolerance."""
-    return number(math.degrees(value) * (abs(value) >= 1e-6 * tol), 4)

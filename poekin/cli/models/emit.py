@@ -53,6 +53,10 @@ Name = Annotated[
         help="What names of files, and in C of functions, begin with (default: the robot's name).",
     ),
 ]
+AllLinks = Annotated[
+    bool,
+    Option("--all-links", help="JavaScript only: the poses of all links, no Jacobian."),
+]
 Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
 Idealise = Annotated[
     float | None,
@@ -67,12 +71,15 @@ def command(
     tip: Tip = None,
     base: Base = None,
     frame: Frame = "hybrid",
+    all_links: AllLinks = False,
     single: Single = False,
     name: Name = None,
     idealise: Idealise = None,
     force: Force = False,
 ) -> None:
-    """Pose and Jacobian of one chain as straight-line source text that needs no poekin."""
+    """Pose and Jacobian of one chain, or poses of all links, as straight-line source text that needs
+    no poekin.
+    """
     if language not in ENDINGS:
         raise InputError(f"--lang: {alternatives(ENDINGS)} expected, got {quote(language)}")
     if single and language != "c":
@@ -81,28 +88,21 @@ def command(
             "JavaScript in double precision"
         )
     robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
     origin = _origin(file, robot)
+    name = robot.name if name is None else name
     ideal = None
-    if idealise is not None:
-        ideal = chain.idealised(idealise)
-        chain = ideal.chain
-        origin += f", idealised within {idealise:g} (rad and m)"
-    if name is None:
-        name = robot.name
-    texts = _texts(chain, language, parse_frame(frame, FRAMES), name, single, origin)
-    ending = output.suffix.lower()
-    if ending in {".c", ".h"}.union(*ENDINGS.values()).difference(ENDINGS[language]):
-        expected = " or ".join(("a directory", *(f"a {e} file" for e in ENDINGS[language])))
-        raise InputError(
-            f"--output: {expected} expected with --lang {language}, got {path_text(output)}"
-        )
-    if ending in ENDINGS[language]:
-        places = dict.fromkeys([output], *texts.values())
-        directory = output.parent
+    if all_links:
+        of_chain = {"--tip": tip, "--base": base, "--idealise": idealise}
+        _check_all_links(language, of_chain)
+        texts = {_file_name(name, language): emit.javascript(robot, origin=origin)}
     else:
-        places = {output / file_name: text for file_name, text in texts.items()}
-        directory = output
+        chain = robot.chain(base=base, tip=tip)
+        if idealise is not None:
+            ideal = chain.idealised(idealise)
+            chain = ideal.chain
+            origin += f", idealised within {idealise:g} (rad and m)"
+        texts = _texts(chain, language, parse_frame(frame, FRAMES), name, single, origin)
+    places, directory = _places(output, language, texts)
     array_files.check_apart(places, model=file)
     _write(places, directory, force)
     for line in next(iter(texts.values())).splitlines():
@@ -131,7 +131,37 @@ def _texts(
     if language == "c":
         return emit.c(chain, frame, name=name, real=NUMBERS[single], origin=origin).files
     write = {"python": emit.python, "javascript": emit.javascript}[language]
-    return {f"{identifier(name)}{ENDINGS[language][0]}": write(chain, frame, origin=origin)}
+    return {_file_name(name, language): write(chain, frame, origin=origin)}
+
+
+def _file_name(name: str, language: str) -> str:
+    return f"{identifier(name)}{ENDINGS[language][0]}"
+
+
+def _check_all_links(language: str, of_chain: dict[str, object]) -> None:
+    """Refuses --all-links in another language, or with an option of one chain."""
+    if language != "javascript":
+        raise InputError("--all-links: expected together with --lang javascript only")
+    for option, value in of_chain.items():
+        if value is not None:
+            raise InputError(f"--all-links: expected without {option}, which is of one chain")
+
+
+def _places(
+    output: Path,
+    language: str,
+    texts: dict[str, str],
+) -> tuple[dict[Path, str], Path]:
+    """Texts by where they go, and the directory of that. Raises: InputError for another ending."""
+    ending = output.suffix.lower()
+    if ending in {".c", ".h"}.union(*ENDINGS.values()).difference(ENDINGS[language]):
+        expected = " or ".join(("a directory", *(f"a {e} file" for e in ENDINGS[language])))
+        raise InputError(
+            f"--output: {expected} expected with --lang {language}, got {path_text(output)}"
+        )
+    if ending in ENDINGS[language]:
+        return dict.fromkeys([output], *texts.values()), output.parent
+    return {output / file_name: text for file_name, text in texts.items()}, output
 
 
 def _write(places: dict[Path, str], directory: Path, force: bool) -> None:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ..count import Count
-from .trace import Graph, Node, Traced, folded
+from .trace import FOLD_TOLERANCE, Graph, Node, Traced, folded
 
 HALF_PI = math.pi / 2
 
@@ -46,7 +46,13 @@ class Angles:
         self.numbers: dict[tuple[Terms, float], int] = {}
 
     def sine_cosine(self, factors: Sequence[float], offset: float, quarters: int):
-        """Sine and cosine of sum factors[k] q_k + offset + quarters * 90 degrees."""
+        """Sine and cosine of sum factors[k] q_k + offset + quarters * 90 degrees. An offset that is a
+        right angle but for rounding is that.
+        """
+        whole = round(offset / HALF_PI)
+        if abs(offset - whole * HALF_PI) <= FOLD_TOLERANCE:
+            offset = 0.0
+            quarters = quarters + whole
         terms = tuple((k, float(f)) for k, f in enumerate(factors) if f)
         if not terms:
             sine, cosine = (math.sin(offset), math.cos(offset)) if offset else (0.0, 1.0)

@@ -23,8 +23,8 @@ from ...algebra import (
     translation,
 )
 from ...formulas.kinematics import columns, structured
-from .program import HALF_PI, Angles, Program, program
-from .trace import FOLD_TOLERANCE, Graph
+from .program import Angles, Program, program
+from .trace import Graph
 
 Pose = tuple[float, ...]
 Walk = tuple[Any, Any, Any, list[Any], list[Any]]
@@ -215,14 +215,11 @@ class _Trace:
 
     def _slide(self, i: int):
         """s x_i, what joint i slides."""
-        shift: Any = self.arm.slides[i] * self.arm.shift[i]
-        if self.arm.slides[i]:
-            for k, factor in self.driven_by[i]:
-                shift = shift + self.graph.scaled(
-                    self.graph.input(-1 - k),
-                    self.arm.slides[i] * factor,
-                )
-        return shift
+        slide = self.arm.slides[i]
+        if not slide:
+            return 0.0
+        terms = [(k, slide * factor) for k, factor in self.driven_by[i]]
+        return self.graph.linear(terms, slide * self.arm.shift[i])
 
     def _outward_walk(self, begin: int) -> Walk:
         """Walk from joint `begin` to the last: a run of axes adds its angles up from its beginning."""
@@ -260,8 +257,4 @@ class _Trace:
                 factors[k] += arm.rotates[i] * factor
         offset = sum(arm.rotates[i] * arm.shift[i] + arm.offsets[i] for i in joints)
         quarters = sum(arm.quarters[i] for i in joints)
-        whole = round(offset / HALF_PI)
-        if abs(offset - whole * HALF_PI) <= FOLD_TOLERANCE:
-            offset = 0.0
-            quarters = quarters + whole
         return self.angles.sine_cosine(factors, offset, quarters)

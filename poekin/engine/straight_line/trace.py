@@ -2,12 +2,14 @@
 
 A product with 0 or +-1 and a sum with 0 are never recorded (`FOLD_TOLERANCE` says how near), equal nodes
 are one node, signs stand beside nodes and cost nothing, and constants that meet are multiplied
-beforehand. What no output needs is left out when the graph is read.
+beforehand. A constant that is added and taken away again leaves no trace: 1 - (1 - x) is x. What no
+output needs is left out when the graph is read.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Iterable
+from typing import Any, NamedTuple
 
 FOLD_TOLERANCE = 2.0**-52
 """A constant that differs from 0 or +-1 by at most this, the rounding of a cosine of a right angle,
@@ -83,6 +85,27 @@ class Graph:
             first.sign,
         )
 
+    def shifted(self, x: Traced, value: float) -> Traced | float:
+        """A scalar plus a constant."""
+        node = self.nodes[x.number]
+        if node.kind == "sum":
+            first = Traced(self, int(node.first), x.sign)
+            second = Traced(self, node.second, x.sign * node.sign)
+            for rest, other in ((first, second), (second, first)):
+                constant = self.nodes[other.number]
+                if constant.kind == "constant" and other.sign * constant.first == -value:
+                    return rest
+        if abs(value) <= FOLD_TOLERANCE:
+            return x
+        return self.sum(x, self.constant(value))
+
+    def linear(self, terms: Iterable[tuple[int, float]], offset: float) -> Traced | float:
+        """Sum of factor * q_k over terms (k, factor), plus an offset."""
+        total: Any = offset
+        for k, factor in terms:
+            total = total + self.scaled(self.input(-1 - k), factor)
+        return total
+
     def constant(self, value: float) -> Traced:
         """A number known beforehand, where it meets one that is not."""
         return self._node(Node("constant", abs(value)), 1 if value > 0 else -1)
@@ -112,9 +135,7 @@ class Traced:
     def __add__(self, other):
         if isinstance(other, Traced):
             return self.graph.sum(self, other)
-        if abs(other) <= FOLD_TOLERANCE:
-            return self
-        return self.graph.sum(self, self.graph.constant(other))
+        return self.graph.shifted(self, other)
 
     def __sub__(self, other):
         return self + -other

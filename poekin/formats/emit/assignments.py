@@ -26,7 +26,7 @@ def result_assignments(
     declare: str,
 ) -> list[str]:
     """The results T and J of sines s, cosines c and coordinates q; all is read before it is written."""
-    T, J = by_outputs(program.outputs, task.pose)
+    T, J = by_outputs(program.outputs, task.poses)
     return [
         *_declared(((name, f"{array}[{k}]") for name, array, k in program.reads), declare),
         *_declared(program.lines, declare),

@@ -165,9 +165,7 @@ class _Function:
 
     def declared(self) -> str:
         """The declarations, and what they are."""
-        sizes = ", ".join(
-            {"T": "T[16]", "J": f"J[{6 * self.dof}]"}[result] for result in self.task.results
-        )
+        sizes = ", ".join(f"{result}[{self.task.sizes[result]}]" for result in self.task.results)
         words = [
             f"{self.name}: from q[{self.dof}] to {sizes}; they may overlap q.",
             f"..._sincos: the same from s[{self.count}] = sin x and c[{self.count}] = cos x, where the angles x are",

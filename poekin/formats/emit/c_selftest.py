@@ -81,15 +81,14 @@ def selftest(
         q=_rows(wanted.q, literal),
         T=_rows(wanted.T, double),
         J=_rows(wanted.J, double),
-        calls="\n".join(line for task in tasks for line in _calls(word, task, dof)),
+        calls="\n".join(line for task in tasks for line in _calls(word, task)),
     )
 
 
-def _calls(word: str, task: EmittedFunction, dof: int) -> list[str]:
-    sizes = {"T": 16, "J": 6 * dof}
+def _calls(word: str, task: EmittedFunction) -> list[str]:
     return [
         f"        {word}_{task.name}(Q[i]{task.arguments});",
-        *(f"        compare({r}, {r}_EXPECTED[i], {sizes[r]});" for r in task.results),
+        *(f"        compare({r}, {r}_EXPECTED[i], {task.sizes[r]});" for r in task.results),
     ]
 
 

@@ -6,6 +6,7 @@ import math
 import re
 import string
 import textwrap
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,9 +20,10 @@ from ...model.kinematics.compiled import CompiledChain
 from ...model.kinematics.pose_jacobian import FRAME_NAMES, AnyFrame
 from ...model.readings.coupled import own_readings
 from ...model.readings.statements import make_statements
+from ...model.robot import Robot
 from ...version import __version__
 
-_PLAIN = set(string.ascii_letters + string.digits + string.punctuation + " ") - set("*?\\\"'`")
+_PLAIN = set(string.ascii_letters + string.digits + string.punctuation + " ") - set("*?\\\"'`<")
 _LONGEST = 80
 
 
@@ -34,7 +36,9 @@ def identifier(name: str) -> str:
 
 
 def quote_ascii(name: str) -> str:
-    """Name in ASCII for a comment of C or a docstring; a character that could end it as <U+002A>."""
+    """Name in ASCII for a comment of C, a docstring, or a script of a page; a character that could end
+    one as <U+002A>.
+    """
     if len(name) > _LONGEST:
         name = name[: _LONGEST - 3] + "..."
     return f"'{_plain(name)}'"
@@ -56,10 +60,12 @@ def made_by(origin: str) -> list[str]:
 
 @dataclass(frozen=True)
 class EmittedFunction:
-    """One function to write: its name, its program, and whether it writes pose and Jacobian."""
+    """One function to write: its name, its program, how many poses it writes, and whether a
+    Jacobian.
+    """
 
     name: str
-    pose: bool
+    poses: int
     jacobian: bool
     program: Program
 
@@ -75,7 +81,12 @@ class EmittedFunction:
     @property
     def results(self) -> list[str]:
         """Arrays that the function writes, of "T" and "J"."""
-        return ["T"] * self.pose + ["J"] * self.jacobian
+        return ["T"] * (self.poses > 0) + ["J"] * self.jacobian
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Numbers of the arrays T and J."""
+        return {"T": 16 * self.poses, "J": len(self.program.outputs) - 12 * self.poses}
 
     @property
     def arguments(self) -> str:
@@ -99,9 +110,9 @@ def make_tasks(
     if not isinstance(frame, str):
         which = f"joint{int(frame)}"
     return (
-        EmittedFunction("fk", True, False, arm.program(None)),
-        EmittedFunction(f"jacobian_{which}", False, True, arm.program(frame)),
-        EmittedFunction(f"fk_jacobian_{which}", True, True, arm.program(frame, pose=True)),
+        EmittedFunction("fk", 1, False, arm.program(None)),
+        EmittedFunction(f"jacobian_{which}", 0, True, arm.program(frame)),
+        EmittedFunction(f"fk_jacobian_{which}", 1, True, arm.program(frame, pose=True)),
     )
 
 
@@ -112,7 +123,10 @@ def header_lines(arm: CompiledChain, frame: AnyFrame) -> list[str]:
         f"Base frame {quote_ascii(chain.base)}, tip frame {quote_ascii(chain.tip)};"
         f" {_many(len(chain.kinds), 'joint')}, {_many(chain.dof, 'coordinate')}. Units: rad, m.",
         "",
-        *(_coordinate(chain, k) for k in range(chain.dof)),
+        *(
+            coordinate_line(k, name, chain.is_angle(k), chain.limits[k])
+            for k, name in enumerate(chain.q_names)
+        ),
         *_readings(chain),
         *[""] * bool(chain.dof),
         "T = (R, p; 0, 1), 4 x 4 row by row: the pose of the tip in the base frame; p in m.",
@@ -121,12 +135,37 @@ def header_lines(arm: CompiledChain, frame: AnyFrame) -> list[str]:
     return [*lines, *_frame(arm, frame)]
 
 
+def robot_lines(robot: Robot) -> list[str]:
+    """Lines about a robot, its coordinates, and the layout of the poses of its links."""
+    kinds = {joint.name: joint.kind for joint in robot.joints}
+    return [
+        f"Robot {quote_ascii(robot.name)}: {_many(len(robot.links), 'link')},"
+        f" {_many(robot.dof, 'coordinate')}. Units: rad, m.",
+        "",
+        *(
+            coordinate_line(k, name, kinds[name] != "prismatic", robot.limits[k])
+            for k, name in enumerate(robot.q_names)
+        ),
+        *_coupling_lines(robot.coupling),
+        *[""] * bool(robot.dof),
+        f"T, {len(robot.links)} x 4 x 4 row by row: (R, p; 0, 1), the poses of the links in the frame of",
+        f"{quote_ascii(robot.root)}; p in m. Floating and planar joints are at their zero pose.",
+        *(f"  T[{16 * k}]  {quote_ascii(link)}" for k, link in enumerate(robot.links)),
+    ]
+
+
 def _readings(chain: Chain) -> list[str]:
     """Lines on joints that follow several readings."""
     readings = own_readings(chain)
     if readings is None:
         return []
-    statements = make_statements(readings, chain.joint_names)
+    return _coupling_lines(make_statements(readings, chain.joint_names))
+
+
+def _coupling_lines(statements: Sequence[str]) -> list[str]:
+    """Lines of statements of joints that follow several readings."""
+    if not statements:
+        return []
     return [
         "",
         "Joints that follow sums of coordinates:",
@@ -134,10 +173,10 @@ def _readings(chain: Chain) -> list[str]:
     ]
 
 
-def _coordinate(chain: Chain, k: int) -> str:
-    unit = "rad" if chain.is_angle(k) else "m"
-    words = f"  q[{k}]  {unit}  {quote_ascii(chain.q_names[k])}"
-    lower, upper = chain.limits[k]
+def coordinate_line(k: int, name: str, angle: bool, limits: np.ndarray) -> str:
+    """Line on a coordinate: its unit, its name, and its limits where it has any."""
+    words = f"  q[{k}]  {'rad' if angle else 'm'}  {quote_ascii(name)}"
+    lower, upper = limits
     if math.isfinite(lower) or math.isfinite(upper):
         words += f", {lower:.6g} ... {upper:.6g}"
     return words

@@ -133,7 +133,7 @@ def _angles(program: Statements) -> list[str]:
 
 def _statements(program: Statements, task: EmittedFunction, dof: int) -> list[str]:
     arrays = {"s": "sines", "c": "cosines", "q": "q"}
-    T, J = by_outputs(program.outputs, task.pose)
+    T, J = by_outputs(program.outputs, task.poses)
     lines = [f"    {name} = {arrays[array]}[..., {k}]" for name, array, k in program.reads]
     lines += [f"    {name} = {text}" for name, text in program.lines]
     constants = dict.fromkeys(x for x in (*T, *J) if not isinstance(x, str))
@@ -142,7 +142,7 @@ def _statements(program: Statements, task: EmittedFunction, dof: int) -> list[st
         # Of the batch's shape, on q's device, even where m = 0.
         lines.append("    zero = xp.sum(q[..., :0], -1)")
         lines += [f"    {names[x]} = xp.full_like(zero, {double(x)})" for x in constants]
-    if task.pose:
+    if task.poses:
         lines += _stack("T =", [names.get(x, str(x)) for x in T])
         lines.append("    T = xp.reshape(T, tuple(q.shape[:-1]) + (4, 4))")
     if task.jacobian:

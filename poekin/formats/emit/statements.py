@@ -102,13 +102,14 @@ def _angle(angle: Angle, literal: WriteNumber) -> str:
 
 def by_outputs(
     outputs: Sequence[str | float],
-    pose: bool,
+    poses: int,
 ) -> tuple[list[str | float], list[str | float]]:
-    """Entries of the pose row by row, none without a pose, and those of J."""
-    if not pose:
-        return [], list(outputs)
-    T = [outputs[i] for i in (0, 1, 2, 9, 3, 4, 5, 10, 6, 7, 8, 11)]
-    return [*T, 0.0, 0.0, 0.0, 1.0], list(outputs[12:])
+    """Entries of the poses row by row, and those of J."""
+    T: list[str | float] = []
+    for k in range(0, 12 * poses, 12):
+        T += [outputs[k + i] for i in (0, 1, 2, 9, 3, 4, 5, 10, 6, 7, 8, 11)]
+        T += [0.0, 0.0, 0.0, 1.0]
+    return T, list(outputs[12 * poses :])
 
 
 def double(value: float) -> str:

@@ -32,7 +32,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import ModuleType
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -51,6 +51,8 @@ from ..text import xml
 from ..text.atomic_write import FilePath
 from .mjcf_files import look_through
 from .mjcf_robot import ModelReader
+
+T = TypeVar("T")
 
 # What is named first refers to what comes after it.
 WITHOUT_KINEMATICS = (
@@ -90,12 +92,7 @@ def read(path: FilePath) -> Robot:
     """
     data = xml.read_bytes(path)
     name = os.fsdecode(path)
-    return _read(
-        data,
-        name,
-        lambda MjSpec: MjSpec.from_file(os.path.abspath(name)),
-        os.path.abspath(name),
-    )
+    return _read(data, name, os.path.abspath(name))
 
 
 def read_text(text: str | bytes, name: str = "<text>") -> Robot:
@@ -104,13 +101,7 @@ def read_text(text: str | bytes, name: str = "<text>") -> Robot:
 
     Raises and warns as `read`; InputError where text is neither str nor bytes, or name no str.
     """
-
-    def parse_spec(MjSpec: Any) -> Any:
-        if isinstance(text, str):
-            return MjSpec.from_string(text)
-        return MjSpec.from_string(bytes(text).decode("utf-8-sig"))
-
-    return _read(text, name, parse_spec)
+    return _read(text, name)
 
 
 def is_mjcf(path: FilePath) -> bool:
@@ -120,34 +111,13 @@ def is_mjcf(path: FilePath) -> bool:
     return xml.parse(xml.read_bytes(path), os.fsdecode(path), tell=False).tag == "mujoco"
 
 
-def _read(
-    data: str | bytes,
-    name: str,
-    parse_spec: Callable[[Any], Any],
-    path: str = "",
-) -> Robot:
-    root = xml.parse(data, name, tell=False)
-    source = Source(name)
-    if root.tag != "mujoco":
-        raise ModelError(
-            f"{source.place(root.sourceline)}: expected the root element <mujoco>, got {quote(root.tag)}"
-        )
-    look_through(root, source, os.path.dirname(path), path)
-    mujoco = _mujoco()
-    try:
-        with _unsaid(mujoco):
-            spec = parse_spec(mujoco.MjSpec)
-            other = _bare(spec, mujoco)
-            model = spec.compile()
-    except (ValueError, RuntimeError, mujoco.FatalError) as refusal:
-        said = "; ".join(line.strip() for line in str(refusal).splitlines() if line.strip())
-        raise ModelError(
-            f"{source.place()}: MuJoCo refuses this model: {escape_unprintable(said, 400)}"
-        ) from refusal
+def _read(data: str | bytes, name: str, path: str = "") -> Robot:
+    root, model, other = compiled(data, name, path, _bare)
+    source = Source(name, mjcf=data if isinstance(data, str) else bytes(data))
     title = root.get("model") or os.path.splitext(os.path.basename(name))[0]
     try:
-        bodies = _poses(model.body_pos, model.body_quat)
-        sites = _poses(model.site_pos, model.site_quat)
+        bodies = poses(model.body_pos, model.body_quat)
+        sites = poses(model.site_pos, model.site_quat)
         # What comes of numbers too large is refused as a joint's origin.
         with np.errstate(all="ignore"):
             robot, said = ModelReader(model).robot(bodies, sites, title, source, other)
@@ -158,6 +128,46 @@ def _read(
     for message in said:
         warn(f"{source.place()}: {message}")
     return robot
+
+
+def compiled(
+    data: str | bytes,
+    name: str,
+    path: str,
+    prepare: Callable[[Any, ModuleType], T],
+) -> tuple[xml.Element, Any, T]:
+    """Root element of an MJCF, MuJoCo's model of it, and what `prepare` says of its MjSpec, which
+    it changes before the model is compiled.
+
+    Parameters: data, the text, and name, which stands for it; path, where it is a file with this
+    content. Raises: as `read`.
+    """
+    root = xml.parse(data, name, tell=False)
+    source = Source(name)
+    if root.tag != "mujoco":
+        raise ModelError(
+            f"{source.place(root.sourceline)}: expected the root element <mujoco>, got {quote(root.tag)}"
+        )
+    look_through(root, source, os.path.dirname(path), path)
+    mujoco = _mujoco()
+    try:
+        with _unsaid(mujoco):
+            spec = _parsed(mujoco.MjSpec, data, path)
+            prepared = prepare(spec, mujoco)
+            return root, spec.compile(), prepared
+    except (ValueError, RuntimeError, mujoco.FatalError) as refusal:
+        said = "; ".join(line.strip() for line in str(refusal).splitlines() if line.strip())
+        raise ModelError(
+            f"{source.place()}: MuJoCo refuses this model: {escape_unprintable(said, 400)}"
+        ) from refusal
+
+
+def _parsed(MjSpec: Any, data: str | bytes, path: str) -> Any:
+    if path:
+        return MjSpec.from_file(path)
+    if isinstance(data, str):
+        return MjSpec.from_string(data)
+    return MjSpec.from_string(bytes(data).decode("utf-8-sig"))
 
 
 def _mujoco() -> ModuleType:
@@ -183,6 +193,24 @@ def _unsaid(mujoco: ModuleType) -> Iterator[None]:
 
 def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
     """Remove everything but kinematics; returns the constraints that are no joint equalities."""
+    # Spheres need no file; deleting geoms one by one takes MuJoCo minutes.
+    for geom in spec.geoms:
+        make_sphere(geom, mujoco)
+        geom.fromto = [np.nan] * 6
+    return without_dynamics(spec, mujoco)
+
+
+def make_sphere(geom: Any, mujoco: ModuleType) -> None:
+    """Make a sphere of a geom, which MuJoCo compiles whatever it was."""
+    geom.type = mujoco.mjtGeom.mjGEOM_SPHERE
+    geom.size = [1.0] * 3
+    geom.meshname = geom.hfieldname = ""
+
+
+def without_dynamics(spec: Any, mujoco: ModuleType) -> list[str]:
+    """Remove everything but kinematics and geoms; returns the constraints that are no joint
+    equalities.
+    """
     for element in (*spec.geoms, *spec.bodies):
         # Before the plugins go: MuJoCo reads them once more otherwise, and dies of it.
         element.plugin.active = False
@@ -198,14 +226,8 @@ def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
                     f"{kind} {equality.name or f'{equality.name1} {equality.name2}'.strip()}"
                 )
             spec.delete(equality)
-    # Spheres need no file; deleting geoms one by one takes MuJoCo minutes.
-    for geom in spec.geoms:
-        geom.type = mujoco.mjtGeom.mjGEOM_SPHERE
-        geom.size = [1.0] * 3
-        geom.fromto = [np.nan] * 6
-        geom.meshname = geom.hfieldname = geom.material = ""
-    for site in spec.sites:
-        site.material = ""
+    for element in (*spec.geoms, *spec.sites):
+        element.material = ""
     spec.nkey = 0  # MuJoCo is slow to make keyframes, and makes as many as are asked for
     spec.compiler.fusestatic = False
     spec.compiler.inertiafromgeom = int(mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE)
@@ -220,7 +242,7 @@ def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
     return other
 
 
-def _poses(places: np.ndarray, quaternions: np.ndarray) -> np.ndarray:
+def poses(places: np.ndarray, quaternions: np.ndarray) -> np.ndarray:
     """Poses (N, 4, 4) [m] of places (N, 3) and unit quaternions (N, 4), w first."""
     R = [quaternion.rotation(*row) for row in quaternions.tolist()]
     return se3.pose(np.reshape(R, (-1, 3, 3)), places)

@@ -127,13 +127,17 @@ def _packages_below() -> Iterator[str]:
             ahead += [below for below in reversed(inner) if os.path.isdir(below)]
 
 
+def open_to_all(folder: str) -> bool:
+    """Whether everybody may write to a folder, or it is not ours to look at."""
+    try:
+        return os.name == "posix" and bool(os.stat(folder).st_mode & stat.S_IWOTH)
+    except OSError:
+        return True
+
+
 def _beside(folder: str, name: str) -> list[str]:
     """Folders in a folder that may be the package: the one of that name, then those that say so."""
-    try:
-        open_to_all = os.name == "posix" and os.stat(folder).st_mode & stat.S_IWOTH
-    except OSError:
-        return []
-    if open_to_all:
+    if open_to_all(folder):
         return []
     near = [os.path.join(folder, other) for other in _names_in(folder)[:MOST_BESIDE]]
     said = [other for other in near if os.path.isfile(os.path.join(other, _MANIFEST))]

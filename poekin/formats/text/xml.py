@@ -122,10 +122,12 @@ def parse(
     name: str,
     *,
     tell: bool = True,
+    huge: bool = False,
 ) -> Element:
     """Root element of an XML document.
 
-    Parameters: data, the document; name, what to call it in messages; tell, whether to warn.
+    Parameters: data, the document; name, what to call it in messages; tell, whether to warn; huge,
+    whether texts of more than 10 MB and elements deeper than 256 are read, as meshes have them.
     Raises: InputError where data is no text; ModelError, with file and line, for an empty text, one
     of more than 64 MiB, malformed XML, and any document type declaration, which is refused before
     anything in it is read: no entity is ever expanded. Warns: PoekinWarning for blanks before the
@@ -151,7 +153,7 @@ def parse(
         # the blanks go behind it, so that each line keeps its number
         content = (late[1] or b"") + late[3] + late[2] + content[late.end() :]
     try:
-        root, slips = _parsed(content, encoding)
+        root, slips = _parsed(content, encoding, huge)
     except _DoctypeFound:
         raise ModelError(
             f"{source.place(_doctype_line(content))}: a document type declaration (DOCTYPE) is refused: no DTD, entity"
@@ -184,14 +186,15 @@ def _bounded(content: bytes, source: Source) -> bytes:
 def _parsed(
     content: bytes,
     encoding: str | None,
+    huge: bool,
 ) -> tuple[Element, list[Any]]:
     """Root element, and the slips that were passed over. Raises: what libxml2 or expat says of the
     text; `_Malformed`.
     """
     try:
-        return _read(content, encoding)[0], []
+        return _read(content, encoding, huge=huge)[0], []
     except etree.XMLSyntaxError as fault:
-        root, slips = _read(content, encoding, recover=True)
+        root, slips = _read(content, encoding, recover=True, huge=huge)
         for slip in slips:
             if slip.type_name not in SLIPS:
                 raise _Malformed(slip) from None
@@ -218,9 +221,10 @@ def _read(
     encoding: str | None,
     *,
     recover: bool = False,
+    huge: bool = False,
 ) -> tuple[Element, list[Any]]:
     """Root element, and what libxml2 complained of; never of a text with a DTD."""
-    options = {"encoding": encoding, "recover": recover, **SAFE}
+    options = {"encoding": encoding, **SAFE, "recover": recover, "huge_tree": huge}
     etree.fromstring(content, etree.XMLParser(target=_DoctypeTrap(), **options))
     parser = etree.XMLParser(**options)
     root = etree.fromstring(content, parser)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, get_args
 
 import numpy as np
@@ -159,6 +160,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     if folds and problem.n_equations * (folds - 1) // folds > free.shape[1]:
         held_out = cross_validation.cross_validate(problem, free, options, folds, seed, progress)
     found = _result(problem, before, fit, identification, held_out, loss)
+    found = replace(found, vectors=problem.residual_vectors(start, fit.p))
     for words in found.warnings:
         warn(words)
     return found

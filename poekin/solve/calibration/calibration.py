@@ -57,6 +57,9 @@ class Calibration(CalibrationData):
     remarks : tuple of str
         The nominal arm is off by as much, as its base is elsewhere, or residuals are smaller than a
         covariance.
+    vectors : ResidualVectors or None
+        Readings, measured points and their residuals in the base frame; None where it was loaded
+        from a file, which does not hold the measurements.
     """
 
     def compare(self) -> Comparison:

@@ -20,6 +20,7 @@ from .fit.noise import NoiseEstimate
 from .measurements.poses import pose_error_jacobian
 from .model.error_model import ErrorModel
 from .model.parameters import Parameter
+from .model.residual_vectors import ResidualVectors
 from .model.residuals import Residuals
 
 
@@ -63,6 +64,7 @@ class CalibrationData(Result):
     error_model: ErrorModel = field(repr=False)
     warnings: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
+    vectors: ResidualVectors | None = field(default=None, repr=False)
 
     @property
     def deviations(self) -> Array:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...errors import ShapeError, quote
 from ...groups.arrays import Array
+from ...model.chain import Chain
 from ...results import Result
 from .task import TaskNames
 
@@ -60,7 +61,13 @@ class Solution(Result):
     reachable_tasks : tuple of tuple of str
         Tasks that reach the target of an arm with too few coordinates for the one asked, for each
         target in C order; empty where it has enough, or all are solved.
+    chain : Chain or None
+        The arm; None of a result that was put together by hand.
+    target : (..., 4, 4) ndarray or None
+        The targets, m.
     """
+
+    left_out = ("chain", "target")
 
     q: Array
     success: np.ndarray
@@ -72,6 +79,8 @@ class Solution(Result):
     distance_beyond_reach: Array
     limits_hit: tuple[Names, ...] = ()
     reachable_tasks: tuple[TaskNames, ...] = ()
+    chain: Chain | None = None
+    target: Array | None = None
 
     def summary(self, *index: int) -> str:
         """Reason of one target with its numbers, or how many targets of a batch have which.

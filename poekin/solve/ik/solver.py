@@ -69,6 +69,8 @@ def solve(
         distance_beyond_reach=causes.distance_beyond_reach.reshape(batch),
         limits_hit=causes.limits_hit,
         reachable_tasks=causes.reachable_tasks,
+        chain=problem.given,
+        target=T,
     )
 
 

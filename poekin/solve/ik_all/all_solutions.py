@@ -10,6 +10,7 @@ import numpy as np
 
 from ...errors import join_names
 from ...groups.arrays import Array
+from ...model.chain import Chain
 from ...results import Result
 from ..ik.solution import place
 from .ik_all_search import Found
@@ -43,7 +44,13 @@ class AllSolutions(Result):
         there is a continuum.
     position_error, rotation_error : (...) ndarray
         Largest errors of the listed solutions by `Chain.fk`, m and rad; NaN without any.
+    chain : Chain or None
+        The arm; None of a result that was put together by hand.
+    target : (..., 4, 4) ndarray or None
+        The targets, m.
     """
+
+    left_out = ("chain", "target")
 
     solutions: Any
     n_revolutions: Any
@@ -55,6 +62,8 @@ class AllSolutions(Result):
     p_missing: Array
     position_error: Array
     rotation_error: Array
+    chain: Chain | None = None
+    target: Array | None = None
 
     def of(self, *index: int) -> Array:
         """Solutions of one target of a batch.

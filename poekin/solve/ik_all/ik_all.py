@@ -354,4 +354,6 @@ def _result(
         p_missing=np.array(missing).reshape(batch),
         position_error=position.reshape(batch),
         rotation_error=rotation.reshape(batch),
+        chain=chain,
+        target=T,
     )

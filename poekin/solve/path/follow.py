@@ -189,6 +189,8 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
         beyond,
         tuple(hit),
         tuple(tasks) if problem.underactuated else (),
+        problem.given,
+        path,
     )
 
 

@@ -2,11 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from ...groups.arrays import Array
+
+EventKind = Literal["missed", "switch", "limit", "speed", "acceleration", "singular"]
+
+
+class PathEvent(NamedTuple):
+    """What happens on a path, and where.
+
+    Parameters
+    ----------
+    first, last : int
+        Numbers of the first and the last point.
+    kind : {"missed", "switch", "limit", "speed", "acceleration", "singular"}
+        Poses not reached, a change of branch, a coordinate at its limit, a rate or an acceleration
+        above it, or the neighbourhood of a singularity.
+    text : str
+        Sentence.
+    """
+
+    first: int
+    last: int
+    kind: EventKind
+    text: str
 
 
 @dataclass(frozen=True, order=True)
@@ -60,3 +84,13 @@ def intervals(
         )
         found.append(interval)
     return found
+
+
+def events_of(
+    kind: EventKind,
+    stretches: Iterable[PathInterval],
+    words: Callable[[PathInterval], str],
+) -> Iterator[PathEvent]:
+    """An event of a kind for each stretch, with its words."""
+    for s in stretches:
+        yield PathEvent(s.first, s.last, kind, words(s))

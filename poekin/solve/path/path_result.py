@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -23,7 +23,7 @@ from ..motion.csv_io import Path, write_joints
 from ..motion.parameterization.time_optimal import time_optimal
 from ..motion.plot import plot_joints
 from ..motion.trajectory.trajectory import Trajectory
-from .path_interval import PathInterval, intervals
+from .path_interval import PathEvent, PathInterval, events_of, intervals
 
 NEAR_SINGULAR = 1e-2
 """Smallest ÷ largest singular value of the Jacobian, lengths ÷ reach, below which a singularity is
@@ -230,7 +230,8 @@ class PathResult(Result):
         ShapeError, UnknownName
             As `motion.time_optimal`.
         """
-        fault = next(iter((*self._failures(), *map(self._switch, self.branch_switches))), "")
+        missed = [event.text for event in self._missed()]
+        fault = next(iter((*missed, *map(self._switch, self.branch_switches))), "")
         if fault:
             raise InputError(f"time_optimal: expected a path without a break; {fault}")
         return time_optimal(self.chain, self.q, acceleration=acceleration, speed=speed)
@@ -271,16 +272,23 @@ class PathResult(Result):
         text : str
             Errors in mm and degrees, coordinates in rad and m.
         """
-        sentences = [
-            self._reached(),
-            *self._failures(),
-            *map(self._switch, self.branch_switches),
-            *(f"{_points(s)}: {quote(s.name)} at its limit {s.bound:.6g}" for s in self.at_limits),
-            *(_exceeds(s, "speed", "s") for s in self.speed_violations),
-            *(_exceeds(s, "acceleration", "s^2") for s in self.acceleration_violations),
-            *map(self._singular, self.near_singular),
-        ]
-        return "\n".join(sentences)
+        return "\n".join([self._reached(), *(event.text for event in self.events)])
+
+    @cached_property
+    def events(self) -> tuple[PathEvent, ...]:
+        """All that happens on the way, kind by kind, each with its sentence."""
+        return (
+            *self._missed(),
+            *(PathEvent(k, k, "switch", self._switch(k)) for k in self.branch_switches),
+            *events_of("limit", self.at_limits, _at_limit),
+            *events_of("speed", self.speed_violations, lambda s: _exceeds(s, "speed", "s")),
+            *events_of(
+                "acceleration",
+                self.acceleration_violations,
+                lambda s: _exceeds(s, "acceleration", "s^2"),
+            ),
+            *events_of("singular", self.near_singular, self._singular),
+        )
 
     def __repr__(self) -> str:
         count = len(self.branch_switches)
@@ -301,16 +309,15 @@ class PathResult(Result):
             f"largest step {self.largest_step:.3g} (rad or m)"
         )
 
-    def _failures(self) -> list[str]:
-        """Sentence for each run of poses that are not reached; bad targets are runs of their own."""
+    def _missed(self) -> Iterator[PathEvent]:
+        """Each run of poses that are not reached; bad targets are runs of their own."""
         size = np.nan_to_num(self.position_error + self.rotation_error)
         bad = self.reason == BAD_TARGET
-        said = []
         missed = ~self.success & ~bad
         for s in sorted(intervals(bad, size, size) + intervals(missed, size, size)):
             where = "" if s.first == s.last else f", least of all {s.worst}"
-            said.append(f"{_points(s)} not reached{where}: {self.solution.summary(s.worst)}")
-        return said
+            text = f"{_points(s)} not reached{where}: {self.solution.summary(s.worst)}"
+            yield PathEvent(s.first, s.last, "missed", text)
 
     def _switch(self, k: int) -> str:
         known = np.isfinite(self.q[:k]).all(axis=1)
@@ -373,6 +380,10 @@ class PathResult(Result):
             size = np.abs(values[:, k])
             found += intervals(size > bounds[k], size, size, bounds[k], name, shift)
         return tuple(sorted(found))
+
+
+def _at_limit(s: PathInterval) -> str:
+    return f"{_points(s)}: {quote(s.name)} at its limit {s.bound:.6g}"
 
 
 def _exceeds(s: PathInterval, what: str, unit: str) -> str:

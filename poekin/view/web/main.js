@@ -3,7 +3,7 @@
 import { Drawing } from "./drawing.js";
 import { button, element } from "./elements.js";
 import { Labels } from "./labels.js";
-import { defaultPart, exaggerate, largestRank, product, spread } from "./mathematics.js";
+import { defaultPart, largestRank, product, spread } from "./mathematics.js";
 import { numbersOf } from "./numbers.js";
 import { Panel } from "./panel.js";
 import { drag, enableHandle } from "./drag.js";
@@ -20,8 +20,9 @@ export class State {
         this.q = Float64Array.from(scene.q);
         this.shown = new Set(scene.shown);
         this.selectedTip = 0;
-        this.choice = null;
-        this.k = 1; // factor by which the second arm's differences from the first are drawn
+        const here = scene.choices.findIndex(({ q }) => q.every((x, k) => x === scene.q[k]));
+        this.choice = here < 0 ? null : here;
+        this.k = scene.exaggerated > 1 ? scene.arms[1].shift.at(-1) : 1; // of the second arm's differences
         this.listeners = {};
         this.parts = [];
         this.forget();
@@ -67,10 +68,15 @@ export class State {
         this.tell("choice");
     }
 
-    // The coordinates of an arm where the sliders are at q.
+    // The coordinates of an arm where the sliders are at q; the last one of a second arm that can be
+    // exaggerated is the factor k.
     ownCoordinates(a, q = this.q) {
         const { factors, shift } = this.scene.arms[a];
-        return Float64Array.from(factors, (row, k) => row.reduce((sum, x, i) => sum + x * q[i], shift[k]));
+        const own = Float64Array.from(factors, (row, k) => row.reduce((sum, x, i) => sum + x * q[i], shift[k]));
+        if (a === 1 && this.scene.exaggerated > 1) {
+            own[own.length - 1] = this.k;
+        }
+        return own;
     }
 
     // Poses of an arm's links in its base, 16 numbers each.
@@ -97,8 +103,7 @@ export class State {
         return { part, rank: largestRank(jacobians, part) };
     }
 
-    // Pose of a link in the world, now or at a choice; of a second arm, as far from the first one's
-    // as the factor k says.
+    // Pose of a link in the world, now or at a choice.
     linkPose(a, link, choice) {
         if (choice !== null) {
             return this.linkPoseAt(a, link, choice);
@@ -108,14 +113,6 @@ export class State {
     }
 
     linkPoseAt(a, link, choice) {
-        const pose = this.ownPose(a, link, choice);
-        if (a === 0 || this.k === 1 || link >= this.scene.arms[0].links.length) {
-            return pose;
-        }
-        return exaggerate(this.ownPose(0, link, choice), pose, this.k);
-    }
-
-    ownPose(a, link, choice) {
         const all = choice === null ? this.links(a) : this.choiceLinks(a, choice);
         return product(this.scene.arms[a].base, all.subarray(16 * link, 16 * link + 16));
     }

@@ -5,12 +5,18 @@ import { button, element, fixed, section } from "./elements.js";
 import { alongPath } from "./mathematics.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5];
-const MARK_WORDS = { switch: "branch switch", singular: "near singular", limit: "at a limit" };
+const MARK_WORDS = {
+    missed: "not reached",
+    switch: "branch switch",
+    limit: "at a limit",
+    speed: "too fast",
+    acceleration: "too sudden",
+    singular: "near singular",
+};
 
 // Puts into a place of the panel what the scene has; the badge of the factor goes over the canvas.
 export function enablePlay(poekin, place, canvas) {
     const { scene } = poekin;
-    poekin.k = 1;
     if (scene.motion !== null) {
         poekin.player = new Player(poekin);
         place.append(poekin.player.box);

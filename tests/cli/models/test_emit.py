@@ -107,6 +107,15 @@ def test_javascript_goes_to_a_file_or_into_a_directory(poekin, tmp_path, place):
     assert path.read_text(encoding="ascii") == text
 
 
+def test_all_links_of_a_robot_with_many_leaves_are_one_module(poekin, tmp_path):
+    words = ("--lang", "javascript", "--all-links", "--output", tmp_path)
+    code, out, err = poekin("emit", "panda", *words)
+    assert (code, err) == (0, "")
+    text = emit.javascript(pk.load("panda"), origin="the robot panda")
+    assert (tmp_path / "panda.js").read_text(encoding="ascii") == text
+    assert out.startswith("link_poses: 98 multiplications, ")
+
+
 def test_a_mimic_joint_is_in_the_text(poekin, tmp_path, crane):
     assert (
         poekin("emit", crane, "--tip", "hook", "--lang", "python", "--output", tmp_path / "arm.py")[
@@ -145,6 +154,14 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
     [
         (("--lang", "rust"), "--lang: 'c', 'python' or 'javascript' expected, got 'rust'"),
         (("--lang", "python", "--float"), "--float: expected together with --lang c only"),
+        (
+            ("--lang", "c", "--all-links"),
+            "--all-links: expected together with --lang javascript only",
+        ),
+        (
+            ("--lang", "javascript", "--all-links"),
+            "--all-links: expected without --tip, which is of one chain",
+        ),
         (
             ("--lang", "c", "--frame", "world"),
             "--frame: space, body, hybrid, cheapest or the number of a joint",

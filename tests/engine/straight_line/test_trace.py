@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from poekin.engine.straight_line.program import Angles, program
+from poekin.engine.straight_line.program import HALF_PI, Angles, program
 from poekin.engine.straight_line.trace import FOLD_TOLERANCE, Graph, Traced
 
 EPS = 1e-16
@@ -75,6 +75,29 @@ def test_constants_that_meet_are_multiplied_beforehand():
     assert cost(graph, 2.0 * (0.5 * x)) == (0, 0)
 
 
+def test_a_constant_that_is_added_and_taken_away_leaves_no_trace():
+    graph, x, y, _ = traced()
+    both = x * y
+    cases: Any = [
+        (1.0 - (1.0 - x), x),
+        (-1.0 - (x - 1.0), -x),
+        ((both + 2.5) - 2.5, both),
+        (-(0.5 - both) + 0.5, both),
+    ]
+    for found, wanted in cases:
+        assert (found.number, found.sign) == (wanted.number, wanted.sign)
+    assert cost(graph, 1.0 + (1.0 - x), 1.0 - (1.5 - x)) == (0, 4)
+
+
+def test_a_sum_of_coordinates_takes_what_each_counts():
+    graph, x, y, _ = traced()
+    assert graph.linear([], 0.25) == 0.25
+    assert graph.linear([(0, 1.0)], 0.0).number == x.number
+    total: Any = graph.linear([(0, -1.0), (1, 2.0)], 0.5)
+    wanted = 0.5 - x + 2.0 * y
+    assert (total.number, total.sign) == (wanted.number, wanted.sign)
+
+
 def test_what_no_output_needs_is_left_out():
     graph, x, y, z = traced()
     _ = x * y * z + x
@@ -121,6 +144,15 @@ def test_a_sum_of_scaled_angles_is_made_from_another_one_where_that_saves_multip
     made = program(graph, angles, outputs)
     assert [angle.base for angle in made.angles] == [None, None, 1]
     assert (made.count.multiplications, made.count.additions) == (1, 3)
+
+
+@pytest.mark.parametrize("quarters", [-3, 1, 2, 8])
+def test_an_offset_that_is_a_right_angle_is_a_quarter_turn(quarters):
+    angles: Any = Angles(Graph())
+    turned = angles.sine_cosine([1.0], quarters * HALF_PI, 0)
+    exact = angles.sine_cosine([1.0], 0.0, quarters)
+    assert [(x.number, x.sign) for x in turned] == [(x.number, x.sign) for x in exact]
+    assert angles.sine_cosine([0.0], HALF_PI, 0) == (1.0, 0.0)
 
 
 def test_an_offset_that_is_no_right_angle_costs_an_addition():

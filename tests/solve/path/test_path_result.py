@@ -308,3 +308,24 @@ def test_there_is_no_fastest_trajectory_along_a_path_with_a_break():
         InputError, match="a path without a break; the branch changes before pose 2"
     ):
         jumping.time_optimal(2.0, speed=1.0)
+
+
+def test_each_event_has_its_place_its_kind_and_its_line_of_the_summary():
+    path = followed(
+        [[0, 1, 0], [0.1, 0.7, 0.1], [2, 0.75, 0.3], [0, 0, 0.3]],
+        reason=["solved", "limits", "solved", "solved"],
+        changes=[3],
+        times=[0, 1, 2, 3],
+        speed=[1, 9, 9],
+    )
+    found = [(event.first, event.last, event.kind) for event in path.events]
+    # the elbow is stretched in the last one; 2 rad is the shoulder's limit, 0 m the lift's
+    assert found == [
+        (1, 1, "missed"),
+        (3, 3, "switch"),
+        (0, 0, "limit"),
+        (2, 2, "limit"),
+        (1, 2, "speed"),
+        (3, 3, "singular"),
+    ]
+    assert [event.text for event in path.events] == path.summary().splitlines()[1:]

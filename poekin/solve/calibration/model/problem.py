@@ -16,6 +16,7 @@ from ..measurements.measurement import Measurement, Rows, rows_of
 from .error_model import ErrorModel
 from .last_result import LastResult
 from .parameters import frame_parameters
+from .residual_vectors import ResidualVectors, places_and_errors
 from .residuals import Residuals, residuals
 
 
@@ -104,6 +105,23 @@ class Problem:
     def residuals(self, p: Array) -> Residuals:
         """Residuals of all measurements."""
         return residuals(self.sets, self.rows, self.errors(p))
+
+    def residual_vectors(self, before: Array, after: Array) -> ResidualVectors:
+        """Residuals of all measured points before and after a fit, as vectors in the base frame."""
+        _, nominal = self._places_and_errors(before)
+        places, calibrated = self._places_and_errors(after)
+        rows = [np.repeat(r, e.shape[1]) for r, e in zip(self.rows, nominal, strict=True)]
+        parts = (
+            np.concatenate([part.reshape(-1, 3) for part in every])
+            for every in (places, nominal, calibrated)
+        )
+        return ResidualVectors(self.q, np.concatenate(rows), *parts)
+
+    def _places_and_errors(self, p: Array) -> tuple[list[Array], list[Array]]:
+        T = self.model.poses(p[: self.model_size], self.q)
+        parts = zip(self.sets, self.rows, self._frames_of_sets(p), strict=True)
+        pairs = [places_and_errors(s, T[rows], frames) for s, rows, frames in parts]
+        return [place for place, _ in pairs], [error for _, error in pairs]
 
     def errors(self, p: Array) -> list[Array]:
         """The errors (N, d) of each set."""

@@ -89,7 +89,7 @@ def test_a_calibration_comes_back_to_the_last_bit(found, tmp_path):
     found.save(tmp_path / "arm.toml")
     again = load(tmp_path / "arm.toml")
     for field in fields(found):
-        if field.name != "error_model":
+        if field.name not in ("error_model", "vectors"):  # measurements are not in the file
             assert same(getattr(found, field.name), getattr(again, field.name)), field.name
     assert again.error_model.parameters == found.error_model.parameters
     assert str(again) == str(found)

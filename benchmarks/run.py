@@ -1,0 +1,114 @@
+"""A run of topics one after the other, and its page, which is written again after each of them."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+import traceback
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from .cases import SECTION_OF, TOPICS
+from .machine import machine
+from .page import html, markdown, results
+from .report import Topic
+
+PAGES = {"index.html": html, "report.md": markdown, "results.json": results}
+
+
+class Run:
+    """Topics that are to be measured, and those that are.
+
+    topics: by name, in the order of the page; a topic of which there is a quick look alone is not
+    done.
+    """
+
+    def __init__(self, folder: Path, names: Sequence[str], say: Callable[[str], None]):
+        self.folder = folder
+        self.names = list(names)
+        self.say = say
+        self.start = time.monotonic()
+        self.about = machine()
+        self.done: list[str] = []
+        self.topics: dict[str, Topic] = {}
+        self.seconds_before = _seconds_of(folder / "results.json")
+
+    def measure(self, name: str, *, quick: bool, look: bool = False) -> None:
+        """Run a topic and write the page; look: whether it is run again after it."""
+        self.say(f"{name} …{self._time_left(look)}")
+        start = time.monotonic()
+        topic = self._attempt(name, quick)
+        topic.seconds = round(time.monotonic() - start, 1)
+        topic.quick = quick
+        self._keep(name, topic)
+        if not look:
+            self.done.append(name)
+        self.write()
+
+    def stop(self) -> None:
+        """Ctrl-C: the topics that are left are named, and quick looks stay."""
+        left = [name for name in self.names if name not in self.done]
+        words = ", ".join(left)
+        if left:
+            self._keep(left[0], Topic(left[0], failure=f"Ctrl-C: not measured: {words}"))
+        self.say(f"Ctrl-C; the report is written without {words or 'nothing'}")
+        self.done = self.names
+        self.write()
+
+    def write(self) -> None:
+        """The pages with what there is."""
+        taken = time.monotonic() - self.start
+        left = len(self.names) - len(self.done)
+        for file, page in PAGES.items():
+            _write(self.folder / file, page(list(self.topics.values()), self.about, taken, left))
+
+    def _keep(self, name: str, topic: Topic) -> None:
+        topic.name = name
+        topic.section = SECTION_OF.get(name, "")
+        self.topics[name] = topic
+        order = list(TOPICS)
+        self.topics = dict(sorted(self.topics.items(), key=lambda item: order.index(item[0])))
+
+    def _attempt(self, name: str, quick: bool) -> Topic:
+        try:
+            return TOPICS[name].topic(quick, self.say)
+        except Exception:  # noqa: BLE001  the other topics' figures must not be lost, and this failure stands in the report
+            failure = traceback.format_exc()
+            self.say(f"{name} broke off:\n{failure}")
+            return Topic(name, failure=failure)
+
+    def _time_left(self, look: bool) -> str:
+        """Words on the time left: that of the last report in the folder, where there was one, and
+        else by the mean of what is measured.
+        """
+        left = [name for name in self.names if name not in self.done]
+        if look or not left:
+            return ""
+        known = self.seconds_before | {
+            name: self.topics[name].seconds for name in self.done if name in self.topics
+        }
+        if not known:
+            return ""
+        mean = sum(known.values()) / len(known)
+        seconds = sum(known.get(name, mean) for name in left)
+        return f" ({len(left)} of {len(self.names)} to go, about {max(1, round(seconds / 60))} min)"
+
+
+def _seconds_of(path: Path) -> dict[str, float]:
+    """Seconds of each topic of an earlier report that was no quick look; none where there is none."""
+    try:
+        topics = json.loads(path.read_text(encoding="utf-8"))["topics"]
+        return {topic["name"]: float(topic["seconds"]) for topic in topics if not topic["quick"]}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+
+
+def _write(path: Path, text: str) -> None:
+    """The whole file or, after a second Ctrl-C, the one that was there."""
+    new = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        new.write_text(text, encoding="utf-8")
+        new.replace(path)
+    finally:
+        new.unlink(missing_ok=True)

@@ -1,0 +1,146 @@
+"""Kinematics of a page: poses of links and Jacobians of tips, as the text of a JavaScript module."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from ..algebra import IDENTITY
+from ..engine.straight_line.program import Program
+from ..engine.straight_line.tree import TracedTree, tree_program
+from ..formats.emit.javascript import links_task, module
+from ..formats.emit.messages import EmittedFunction
+from ..groups import se3
+from ..model.chain import Chain
+from ..model.joint import FREE
+from ..model.robot import Robot
+from .scene import SceneTip
+
+MOST_TIPS = 12
+"""Tips of a page, beyond those that are asked for."""
+
+Model = Robot | Chain
+_LINES = (
+    "links(q): poses of the links in the base frame, 4 x 4 row by row, one after the other.",
+    "tips[k].fk_jacobian(q): pose T of a tip and its hybrid Jacobian J, axes of the base, v of the",
+    "origin of the tip; a column for each coordinate that moves it.",
+)
+
+
+def page_tips(model: Model, names: Iterable[str] = ()) -> tuple[SceneTip, ...]:
+    """Tips of a page: those asked for by the names of their links, then `default_tips`; of a chain
+    its own. Raises: UnknownName for a name that is no link.
+    """
+    if isinstance(model, Chain):
+        return (SceneTip(model.tip, len(model.kinds), tuple(range(model.dof))),)
+    held = _held(model)
+    return tuple(
+        SceneTip(name, model.links.index(name), tuple(map(model.q_names.index, chain.q_names)))
+        for name in dict.fromkeys((*names, *default_tips(model)))
+        for chain in [held.chain(tip=name)]
+    )
+
+
+def default_tips(robot: Robot) -> tuple[str, ...]:
+    """Leaves whose Jacobian a page shows, at most `MOST_TIPS`.
+
+    Of leaves that the same joint moves, the one below most joints stands for all. Each next leaf is
+    the one that most coordinates move which move no leaf before it, of several the one that most
+    coordinates move. Leaves that no joint moves are left out, unless there are no others.
+    """
+    held = _held(robot)
+    above = {joint.child: joint.parent for joint in robot.joints}
+    last: dict[str, Chain] = {}
+    for leaf in robot.leaves:
+        chain = held.chain(tip=leaf)
+        moved_by = chain.joint_names[-1] if chain.joint_names else ""
+        other = last.setdefault(moved_by, chain)
+        if _depth(leaf, above) > _depth(other.tip, above):
+            last[moved_by] = chain
+    left = [chain for moved_by, chain in last.items() if moved_by or len(last) == 1]
+    chosen: list[str] = []
+    moving: set[str] = set()
+    while left and len(chosen) < MOST_TIPS:
+        best = max(left, key=lambda chain: (len({*chain.q_names} - moving), chain.dof))
+        left.remove(best)
+        chosen.append(best.tip)
+        moving.update(best.q_names)
+    return tuple(chosen)
+
+
+def _depth(link: str, above: dict[str, str]) -> int:
+    """Number of joints above a link."""
+    depth = 0
+    while link in above:
+        link = above[link]
+        depth += 1
+    return depth
+
+
+def kinematics(model: Model, tips: Iterable[SceneTip]) -> str:
+    """Text of a module that exports links(q) and tips, of q with all coordinates of the model.
+
+    Notes
+    -----
+    links(q): a robot's as `Robot.fk`, floating and planar joints at their zero pose; of a chain of
+    n joints n + 1 bodies, each by its displacement from where it is at q = 0, in the base frame.
+    Accuracy: that of `pk.emit.javascript` (tests/view/test_kinematics.py).
+    """
+    tips = tuple(tips)
+    if isinstance(model, Chain):
+        links = EmittedFunction("link_poses", len(model.kinds) + 1, False, _body_program(model))
+        chains = [model] * len(tips)
+    else:
+        links = links_task(model)
+        held = _held(model)
+        chains = [held.chain(tip=tip.name) for tip in tips]
+    tasks = [
+        EmittedFunction(f"tip{k}", 1, True, chain.compile().program("hybrid", pose=True))
+        for k, chain in enumerate(chains)
+    ]
+    text = module("an arm of a page", [links, *tasks], _LINES, "")
+    return f"{text}\nexport const links = (q) => link_poses(q);\n\n{_tips(tips)}"
+
+
+def _tips(tips: Iterable[SceneTip]) -> str:
+    """The tips, each with a function that picks its coordinates."""
+    lines = [
+        f"    {{ fk_jacobian: (q) => tip{k}([{', '.join(f'q[{i}]' for i in tip.coordinates)}]) }},"
+        for k, tip in enumerate(tips)
+    ]
+    return "\n".join(["export const tips = [", *lines, "];", ""])
+
+
+def _held(robot: Robot) -> Robot:
+    """The robot with its floating and planar joints fixed at their zero pose, so that chains cross
+    them.
+    """
+    if not any(joint.kind in FREE for joint in robot.joints):
+        return robot
+    joints = [
+        replace(joint, kind="fixed") if joint.kind in FREE else joint for joint in robot.joints
+    ]
+    return Robot(robot.name, robot.links, joints, robot.source, robot.coupling)
+
+
+def _body_program(chain: Chain) -> Program:
+    """Program of the displacements of n + 1 bodies, e^{A_1 y_1} ... e^{A_k y_k} with y = C q and the
+    screws at q = 0.
+    """
+    n = len(chain.kinds)
+    S = np.zeros((n, 6, 1))
+    S[:, 2, 0] = chain.local.rotates
+    S[:, 5, 0] = chain.local.slides
+    A = se3.adjoint(chain.joint_poses(np.zeros(chain.dof))) @ S
+    C = [[(k, factor) for k, factor in enumerate(row) if factor] for row in chain.coupling.tolist()]
+    tree = TracedTree(
+        range(n),
+        [IDENTITY] * n,
+        A[..., 0].tolist(),
+        list(map(tuple, C)),
+        [0.0] * n,
+        chain.dof,
+    )
+    return tree_program(tree, range(n + 1))

@@ -1,0 +1,156 @@
+"""Nodes that draw what a robot looks like: its visuals, on its links."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+
+from ...errors import FileError, quote
+from ...formats.visuals.of_robot import visuals_of
+from ...formats.visuals.visual import LeftOut, Visual
+from ...model.robot import Robot
+from .. import shapes
+from ..nodes import Hung, Role, Triangles
+from .find import MeshFinder
+from .kept import parts_of
+from .load import MeshPart, joined, merged
+from .reduce import limit_for, reduced
+
+BUDGET = 400_000
+"""Triangles of a robot; a page of them has 5 MB."""
+MOST_BYTES = 512 * 2**20
+"""Bytes of all mesh files of a robot together."""
+ROLES: tuple[Role, Role] = ("first", "second")
+
+
+def mesh_nodes(robot: Robot, arm: int = 0) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]]:
+    """Nodes of all that can be drawn of a robot, and what cannot, with the reason.
+
+    Parameters
+    ----------
+    robot : Robot
+        Robot that was read from a URDF or MJCF; there is nothing to draw of another one.
+    arm : int
+        Number of the robot in the scene.
+
+    Returns
+    -------
+    nodes : tuple of Triangles
+        For each link and colour one, in the layer "meshes", in the link's frame, m. A colour that
+        the model names stands in place of that of the mesh's file.
+    left_out : tuple of LeftOut
+        Shapes that were not understood, files that were not found or not read; and if there are
+        more than `BUDGET` triangles, a last line with the bound on how far a vertex was moved to
+        have fewer.
+
+    Raises
+    ------
+    MissingExtra
+        If a mesh is to be read, and trimesh or pycollada is not installed.
+    """
+    found, left_out = visuals_of(robot)
+    missing = list(left_out)
+    reader = _Reader(robot)
+    drawn: list[tuple[Visual, tuple[MeshPart, ...]]] = []
+    for visual in found:
+        try:
+            drawn.append((visual, reader.parts(visual)))
+        except FileError as fault:
+            what = quote(visual.file or visual.shape, 200)
+            missing.append(LeftOut(visual.link, visual.place, what, str(fault)))
+    counts = [len(part.faces) for _, parts in drawn for part in parts]
+    limit = limit_for(counts, BUDGET)
+    pieces: dict[tuple[str, int | None, float], list[tuple[np.ndarray, np.ndarray]]] = {}
+    moved = 0.0
+    for visual, parts in drawn:
+        opacity = visual.color[3] if visual.color else 1.0
+        for part in parts if opacity else ():
+            vertices, faces, diagonal = reader.reduced(part, limit)
+            moved = max(moved, diagonal * _largest(visual))
+            color = part.color if visual.color is None else _rgb(visual.color[:3])
+            group = pieces.setdefault((visual.link, color, opacity), [])
+            group.append(_placed(visual, vertices, faces))
+    nodes = []
+    for (link, color, opacity), group in pieces.items():
+        number = robot.links.index(link)
+        hung = Hung("meshes", ROLES[arm], number, arm, link, color=color, opacity=opacity)
+        nodes.append(Triangles(hung, *joined(group)))
+    if moved:
+        words = f"{sum(counts)} triangles are drawn as {sum(len(node.faces) for node in nodes)}"
+        why = f"no vertex is more than {moved * 1e3:.2g} mm off"
+        missing.append(LeftOut("", str(robot.source), words, why))
+    return tuple(nodes), tuple(missing)
+
+
+class _Reader:
+    """Reader of the meshes of one robot, each file once."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.finder = MeshFinder(str(robot.source))
+        self.left = MOST_BYTES
+        self.files: dict[str, tuple[MeshPart, ...]] = {}
+        self.smaller: dict[int, tuple[np.ndarray, np.ndarray, float]] = {}
+
+    def parts(self, visual: Visual) -> tuple[MeshPart, ...]:
+        """Triangles of a shape. Raises: FileError."""
+        if visual.triangles is not None:
+            vertices, faces = visual.triangles
+            if not len(faces) or faces.min() < 0 or faces.max() >= len(vertices):
+                raise FileError("a face has a vertex that does not exist")
+            return (MeshPart(*merged([visual.triangles]), None),)
+        if visual.shape != "mesh":
+            return (MeshPart(*_primitive(visual), None),)
+        path = self.finder.find(visual.file)
+        if path not in self.files:
+            self.left -= os.path.getsize(path)
+            if self.left < 0:
+                raise FileError(f"the meshes before it have {MOST_BYTES >> 20} MiB already")
+            self.files[path] = parts_of(path)
+        return self.files[path]
+
+    def reduced(self, part: MeshPart, limit: int) -> tuple[np.ndarray, np.ndarray, float]:
+        """MeshPart with so many triangles at most, and how far a vertex may be off, in its own unit."""
+        known = id(part.faces)  # which the files keep
+        if known not in self.smaller:
+            self.smaller[known] = reduced(part.vertices, part.faces, limit)
+        return self.smaller[known]
+
+
+def _primitive(visual: Visual) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles of a shape that is no mesh."""
+    size = visual.size
+    if visual.shape == "box":
+        return shapes.box(size)
+    if visual.shape == "cylinder":
+        return shapes.cylinder(*size, sides=32)
+    if visual.shape == "capsule":
+        radius, length = size
+        return shapes.capsule((0, 0, -length / 2), (0, 0, length / 2), radius, 32)
+    unit = shapes.sphere()
+    return unit.vertices * (size * 3)[:3], unit.faces
+
+
+def _placed(
+    visual: Visual, vertices: np.ndarray, faces: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles in the frame of their link, facing outwards still where a factor mirrors them."""
+    points = np.asarray(vertices, dtype=float)
+    if visual.shape == "mesh":
+        if visual.T_mesh is not None:
+            points = points @ visual.T_mesh[:3, :3].T + visual.T_mesh[:3, 3]
+        points = points * visual.size
+        if np.prod(visual.size) < 0:
+            faces = faces[:, ::-1]
+    T = visual.T_link_visual
+    return points @ T[:3, :3].T + T[:3, 3], faces
+
+
+def _largest(visual: Visual) -> float:
+    """Largest factor by which a shape's lengths are drawn."""
+    return max(map(abs, visual.size)) if visual.shape == "mesh" else 1.0
+
+
+def _rgb(color: tuple[float, ...]) -> int:
+    r, g, b = (round(255 * value) for value in color)
+    return r << 16 | g << 8 | b

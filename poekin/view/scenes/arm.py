@@ -1,0 +1,214 @@
+"""Scene of one arm: a robot or a chain, its screws, frames, Jacobian and reach."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...checks import whole
+from ...errors import InputError, join_names, quote
+from ...formats.visuals.visual import LeftOut
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.joint import FREE
+from ...model.kinematics.arm import chain_of
+from ...model.kinematics.compiled import CompiledChain
+from ...model.robot import Robot
+from ..kinematics import kinematics, page_tips
+from ..meshes.mesh_nodes import mesh_nodes
+from ..nodes import Layer, Node, Triangles
+from ..scene import Scene, SceneArm, SceneTip
+from .arm_parts.axes import axis_nodes, frame_nodes, label_nodes, screw_table
+from .arm_parts.geometry import ArmGeometry, opening_q
+from .arm_parts.jacobian import jacobian_nodes, singular_words
+from .arm_parts.missing import left_out_words, stand_ins
+from .arm_parts.of_chain import chain_geometry
+from .arm_parts.of_robot import chain_to, robot_geometry
+from .arm_parts.reach import reach_cloud
+from .arm_parts.skeleton import glyph_radii, skeleton_nodes
+
+Model = Robot | Chain
+
+POINT = 1e-6
+"""Size up to which an arm is a point, m."""
+
+
+def arm_scene(
+    model: Model | CompiledChain[Chain],
+    *,
+    q: ArrayLike | Mapping[str, float] | None = None,
+    tip: str | None = None,
+    meshes: bool = True,
+    cloud: int = 0,
+) -> Scene:
+    """Scene of a robot or a chain.
+
+    Parameters
+    ----------
+    model : Robot or Chain
+        Model to show.
+    q : (m,) array_like or dict, optional
+        Configuration of all coordinates when the page opens, rad or m. Without it each is zero
+        where that is within its limits, else in their middle. A slider reaches a value of q
+        that is beyond the limits, and a sentence says so.
+    tip : str, optional
+        Link whose Jacobian is shown first, of a robot; the page offers the others beside it.
+    meshes : bool, default True
+        Whether the shapes of a robot's links are drawn, where they are found; links whose are not
+        are drawn as bones, and named.
+    cloud : int, default 0
+        Number of random configurations whose tip positions are drawn as a cloud.
+
+    Returns
+    -------
+    scene : Scene
+        Data of the page.
+
+    Raises
+    ------
+    UnknownName
+        If the tip is no link, or q names a coordinate that the model has not.
+    ShapeError
+        If q has another number of coordinates.
+    MissingExtra
+        If the robot has meshes, and trimesh or pycollada is not installed.
+    InputError
+        If q is not finite, a tip is named for a chain, or the model is none.
+
+    Notes
+    -----
+    Axes and frames are exact to the rounding of `Robot.fk` and `Chain.joint_poses`
+    (tests/view/scenes/test_arm_scene.py).
+    """
+    model = model if isinstance(model, Robot) else chain_of(model, "model")
+    cloud = whole(cloud, "cloud", 0)
+    tips = page_tips(model, _asked(model, tip))
+    arm = arm_geometry(model, tips)
+    opening = opening_q(arm.sliders, q)
+    bodies: tuple[Triangles, ...] = ()
+    left_out: tuple[LeftOut, ...] = ()
+    if meshes and isinstance(model, Robot):
+        bodies, left_out = mesh_nodes(model)
+    size = arm_size(arm, opening, bodies)
+    nodes = [*bodies, *arm_nodes(arm, opening, size, bool(bodies))]
+    if bodies:
+        nodes += stand_ins(arm, left_out, bodies, size)
+    moved = [chain for chain in _chains(model, tips[:1]) if chain.dof]
+    if moved:
+        nodes += jacobian_nodes(max(len(tip.coordinates) for tip in tips), size)
+    if cloud:
+        nodes += [reach_cloud(chain, arm.links.index(chain.base), cloud, size) for chain in moved]
+    words = [*_model_words(model, arm), *_beyond(arm, opening), *left_out_words(left_out)]
+    values = {slider.name: x for slider, x in zip(arm.sliders, opening, strict=True)}
+    for chain in moved:
+        words += singular_words(chain, np.array([values[name] for name in chain.q_names]))
+    shown: set[Layer] = {"axes", "frames", "meshes" if bodies else "skeleton"}
+    return Scene(
+        title=arm.name,
+        words=tuple(words),
+        arms=(scene_arm(model, arm, tips, opening),),
+        q=opening,
+        nodes=tuple(nodes),
+        shown=frozenset(shown),
+        size=size,
+        tables=(screw_table(arm),),
+    )
+
+
+def arm_geometry(model: Model, tips: Iterable[SceneTip]) -> ArmGeometry:
+    """Geometry of a robot, with frames at its tips, or of a chain."""
+    if isinstance(model, Robot):
+        return robot_geometry(model, [tip.name for tip in tips])
+    return chain_geometry(model)
+
+
+def arm_size(arm: ArmGeometry, q: Array, bodies: Iterable[Triangles] = ()) -> float:
+    """Diagonal of the box around the arm's points and bodies at q, m; 1 m where these are one point."""
+    T = arm.poses(q)
+    points = [arm.points(q)]
+    for body in bodies:
+        corners = np.stack(np.meshgrid(*_bounds(body.vertices)), axis=-1).reshape(-1, 3)
+        points.append(corners @ T[body.hung.link, :3, :3].T + T[body.hung.link, :3, 3])
+    diagonal = float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
+    return diagonal if diagonal > POINT else 1.0
+
+
+def _bounds(points: Array) -> Array:
+    """Least and greatest coordinates (3, 2) of points."""
+    return np.stack([points.min(axis=0), points.max(axis=0)], axis=-1)
+
+
+def arm_nodes(arm: ArmGeometry, q: Array, size: float, covered: bool = False) -> list[Node]:
+    """Skeleton, axes, labels and frames, in sizes for the configuration q; larger where bodies cover
+    them.
+    """
+    radii = glyph_radii(arm, q, size)
+    return [
+        *skeleton_nodes(arm, radii, size),
+        *axis_nodes(arm, radii, size, covered),
+        *label_nodes(arm, radii),
+        *frame_nodes(arm, size, covered),
+    ]
+
+
+def scene_arm(
+    model: Model,
+    arm: ArmGeometry,
+    tips: tuple[SceneTip, ...],
+    q: Array,
+) -> SceneArm:
+    """The model as an arm of a page whose sliders are its own coordinates."""
+    m = len(arm.sliders)
+    return SceneArm(
+        name=arm.name,
+        program=kinematics(model, tips),
+        links=arm.links,
+        coordinates=tuple(
+            replace(slider, lower=min(slider.lower, x), upper=max(slider.upper, x))
+            for slider, x in zip(arm.sliders, q.tolist(), strict=True)
+        ),
+        tips=tips,
+        base=np.eye(4),
+        factors=np.eye(m),
+        shift=np.zeros(m),
+    )
+
+
+def _asked(model: Model, tip: str | None) -> tuple[str, ...]:
+    """The tip that is asked for, which a chain has already."""
+    if tip is None:
+        return ()
+    if isinstance(model, Chain):
+        raise InputError(f"tip: a chain has its own, {quote(model.tip)}; got {quote(tip)}")
+    return (tip,)
+
+
+def _chains(model: Model, tips: Iterable[SceneTip]) -> list[Chain]:
+    if isinstance(model, Chain):
+        return [model]
+    return [chain_to(model, tip.name) for tip in tips]
+
+
+def _model_words(model: Model, arm: ArmGeometry) -> list[str]:
+    """Sentences on what the model is."""
+    words = [f"{len(arm.joints)} joints that move, {len(arm.sliders)} coordinates."]
+    if isinstance(model, Robot):
+        free = [joint.name for joint in model.joints if joint.kind in FREE]
+        if free:
+            words.append(f"Floating and planar joints are at zero: {join_names(free)}.")
+    return words
+
+
+def _beyond(arm: ArmGeometry, q: Array) -> list[str]:
+    """Sentence on the coordinates of q that are beyond their limits."""
+    beyond = [
+        slider.name
+        for slider, x in zip(arm.sliders, q, strict=True)
+        if not slider.lower <= x <= slider.upper
+    ]
+    if not beyond:
+        return []
+    return [f"The page opens beyond the limits of {join_names(beyond)}."]

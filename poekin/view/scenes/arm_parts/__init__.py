@@ -1,0 +1,1 @@
+"""Parts of the scene of an arm, each drawn from the same description of its geometry."""

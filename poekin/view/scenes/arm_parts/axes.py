@@ -1,0 +1,109 @@
+"""Axes of an arm as lines with their numbers, the table of their screws, frames and joints' names."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ....errors import escape_unprintable
+from ....groups.arrays import Array
+from ....model.screw import axis_of
+from ...nodes import Hung, Label, Node, Polyline, Role, Triangles
+from ...scene import PageTable
+from ...shapes import cone, frame_axes
+from .geometry import ArmGeometry, JointGeometry
+
+HALF_LINE = 4.0
+"""Half an axis line as a multiple of the radius of the joint's glyph."""
+COVERED = 1.6
+"""Factor by which lines and frames are longer where bodies cover them."""
+END_FRAME = 0.12
+"""Length of the arrows of the base's and the first tip's frame, as a share of the arm's size."""
+LINK_FRAME = 0.045
+"""The same, of other frames."""
+HEADS = ("axis", "joint", "kind", "ω", "point nearest to the origin, m", "v", "pitch, m/rad")
+XYZ: tuple[Role, Role, Role] = ("x", "y", "z")
+
+
+def axis_nodes(
+    arm: ArmGeometry,
+    radii: Array,
+    size: float,
+    covered: bool = False,
+) -> list[Node]:
+    """For each joint its axis A_k, a head at the positive end, and its number; lines are longer where
+    bodies cover them.
+    """
+    half = HALF_LINE * (COVERED if covered else 1.0)
+    nodes: list[Node] = []
+    for k, (joint, radius) in enumerate(zip(arm.joints, radii, strict=True)):
+        title = f"A{k + 1}"
+        nodes += _axis(joint, title, float(radius), half * radius * joint.direction, size)
+    return nodes
+
+
+def _axis(
+    joint: JointGeometry,
+    title: str,
+    radius: float,
+    half: Array,
+    size: float,
+) -> list[Node]:
+    end = joint.point + half
+    hung = Hung("axes", "joint", joint.parent, name=f"{title} {joint.name}")
+    head = cone(0.15 * radius, 0.5 * radius).placed(end, joint.direction)
+    words = Label(hung, end + radius * joint.direction, title)
+    line = Polyline(hung, np.array([joint.point - half, end]), 0.0025 * size)
+    return [line, Triangles(hung, *head), words]
+
+
+def label_nodes(arm: ArmGeometry, radii: Array) -> list[Node]:
+    """Names of the joints, beside them."""
+    return [
+        Label(
+            Hung("labels", "joint", joint.parent, name=joint.name),
+            joint.point - 1.5 * radius * joint.direction,
+            escape_unprintable(joint.name),
+        )
+        for joint, radius in zip(arm.joints, radii, strict=True)
+    ]
+
+
+def frame_nodes(arm: ArmGeometry, size: float, covered: bool = False) -> list[Node]:
+    """Frames as three arrows; those of the base and of the first tip are larger, and longer still where
+    bodies cover them; tips have their names.
+    """
+    nodes: list[Node] = []
+    for frame in arm.frames:
+        length = LINK_FRAME * size
+        if frame.kind == "end":
+            length = END_FRAME * size * (COVERED if covered else 1.0)
+        for role, axis in zip(XYZ, frame_axes(frame.pose, length), strict=True):
+            nodes.append(Triangles(Hung("frames", role, frame.link, name=frame.name), *axis))
+        if frame.kind != "link":
+            hung = Hung("frames", "first", frame.link, name=frame.name)
+            place = frame.pose[:3] @ [0.6 * length, 0.6 * length, 0.0, 1.0]
+            nodes.append(Label(hung, place, escape_unprintable(frame.name)))
+    return nodes
+
+
+def screw_table(arm: ArmGeometry) -> PageTable:
+    """The screws (ω; v) in the base frame at q = 0, with the points and pitches of their axes."""
+    rows = [_screw_row(joint, k) for k, joint in enumerate(arm.joints)]
+    return PageTable("Screws at q = 0, in the base frame", HEADS, tuple(rows))
+
+
+def _screw_row(joint: JointGeometry, k: int) -> tuple[str, ...]:
+    place = "none"
+    pitch = "∞"
+    if joint.kind != "prismatic":
+        place = _vector(axis_of(joint.screw).point)
+        pitch = _vector([joint.pitch])
+    name = escape_unprintable(joint.name)
+    w, v = _vector(joint.screw[:3]), _vector(joint.screw[3:])
+    return f"A{k + 1}", name, joint.kind, w, place, v, pitch
+
+
+def _vector(values: Array | list[float] | None) -> str:
+    """Numbers to five digits; what is below 1e-9 is the rounding of a zero."""
+    row = np.asarray(values, float)
+    return ", ".join(f"{x:.5g}" for x in np.where(np.abs(row) < 1e-9, 0.0, row))

@@ -1,0 +1,73 @@
+"""Geometry of a chain: n + 1 bodies in base coordinates at q = 0, displaced by their joints.
+
+Body k is what joint k moves; its pose on the page is its displacement T_k(q) = f_k(q) f_k(0)^-1.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ....analysis.axis_lines import uncoupled_at_zero
+from ....groups import se3
+from ....groups.arrays import Array
+from ....model.chain import Chain
+from ....model.readings.coupled import own_limits
+from ...scene import Slider
+from .geometry import ArmGeometry, Bone, JointGeometry, LinkFrame
+
+
+def chain_geometry(chain: Chain) -> ArmGeometry:
+    """Geometry of a chain."""
+    zero = np.zeros(chain.dof)
+    rest = chain.joint_poses(zero)
+    back = se3.inverse(rest)
+    tool = chain.fk(zero)
+    joints = _joints(chain, rest)
+    n = len(joints)
+
+    def poses(q: Array) -> Array:
+        moved = chain.joint_poses(q) @ back
+        return np.concatenate([np.eye(4)[None], moved])
+
+    places = np.array([np.zeros(3), *rest[:, :3, 3], tool[:3, 3]])
+    frames = [LinkFrame(0, np.eye(4), chain.base, "end")]
+    frames += [LinkFrame(k + 1, rest[k], joints[k].name, "link") for k in range(n)]
+    return ArmGeometry(
+        name=f"{chain.base} → {chain.tip}",
+        links=(chain.base, *(joint.name for joint in joints)),
+        sliders=_sliders(chain),
+        joints=joints,
+        bones=tuple(Bone(k, places[k], places[k + 1]) for k in range(n + 1)),
+        frames=(*frames, LinkFrame(n, tool, chain.tip, "end")),
+        poses=poses,
+    )
+
+
+def _joints(chain: Chain, rest: Array) -> tuple[JointGeometry, ...]:
+    """Joints whose axes are given by the z axes of the local frames (n, 4, 4) at q = 0."""
+    screws = uncoupled_at_zero(chain).screws
+    limits = own_limits(chain).tolist()
+    return tuple(
+        JointGeometry(
+            name=name,
+            kind=chain.kinds[k],
+            parent=k,
+            child=k + 1,
+            point=rest[k, :3, 3],
+            direction=rest[k, :3, 2],
+            child_point=rest[k, :3, 3],
+            child_direction=rest[k, :3, 2],
+            pitch=float(chain.pitches[k]),
+            limits=tuple(limits[k]),
+            screw=screws[k],
+        )
+        for k, name in enumerate(chain.joint_names)
+    )
+
+
+def _sliders(chain: Chain) -> tuple[Slider, ...]:
+    bounds = chain.limits.tolist()
+    return tuple(
+        Slider(name, "rad" if chain.is_angle(k) else "m", *bounds[k])
+        for k, name in enumerate(chain.q_names)
+    )

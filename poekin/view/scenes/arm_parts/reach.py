@@ -1,0 +1,19 @@
+"""Cloud of points that a tip reaches, coloured by how well it moves there."""
+
+from __future__ import annotations
+
+from ....analysis.dexterity.manipulability import manipulability
+from ....model.chain import Chain
+from ...nodes import Cloud, Hung
+
+SEED = 0
+
+
+def reach_cloud(chain: Chain, base: int | None, count: int, size: float) -> Cloud:
+    """Positions of the tip at configurations drawn uniformly within the limits, with Yoshikawa's
+    measure of its translation; base is the number of the link that the chain begins at.
+    """
+    q = chain.random(SEED, size=count)
+    values = manipulability(chain, q).translation.yoshikawa
+    hung = Hung("cloud", "first", base, name=f"points that {chain.tip} reaches")
+    return Cloud(hung, chain.fk(q)[:, :3, 3], 0.006 * size, values)

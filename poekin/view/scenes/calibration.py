@@ -1,0 +1,116 @@
+"""Scene of a calibration: the nominal and the calibrated arm, and what measurements say of both."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ...analysis.compare.compare import compare
+from ...groups.arrays import Array
+from ...solve.calibration.calibration import Calibration
+from ...solve.calibration.model.residual_vectors import ResidualVectors
+from ...solve.calibration.report import changes
+from ..nodes import Cloud, Hung, Node, Role, Triangles
+from ..scene import PageTable, Scene
+from ..shapes import arrow, merged
+from .arm import arm_scene
+from .arm_parts.of_chain import chain_geometry
+from .exaggerated import STEPS, exaggerated
+from .overlay import second_arm, second_nodes
+
+MOST = 400
+"""Residuals that are drawn."""
+VISIBLE = 0.1
+"""Largest length of nine residuals of ten as a share of the arm's size."""
+SIDES = 5
+"""Sides of the polygon that stands for an arrow's circle."""
+
+
+def calibration_scene(found: Calibration) -> Scene:
+    """Scene of a calibration.
+
+    Parameters
+    ----------
+    found : Calibration
+        Result of `calibrate`.
+
+    Returns
+    -------
+    scene : Scene
+        The nominal and the calibrated arm at the same coordinates, the corrections of the axes
+        enlarged; at measured points the residuals of both, enlarged by a factor that the page
+        says; a table of the corrections. Of a calibration out of a file without residuals.
+    """
+    vectors = found.vectors
+    q = None if vectors is None or not len(vectors.q) else vectors.q[0]
+    scene = arm_scene(found.nominal, q=q, meshes=False)
+    side_by_side = compare(found.nominal, found.chain, strict=True)
+    second = exaggerated(side_by_side)
+    own = side_by_side.b
+    factors = np.asarray(found.chain.coupling)
+    arm = second_arm(second, np.eye(4), factors, np.zeros(len(factors)))
+    nodes = second_nodes(second, chain_geometry(own), {}, (), scene.size)
+    words = [changes.sentence(found), *found.warnings]
+    if vectors is not None and len(vectors.places):
+        k = _factor(vectors, scene.size)
+        nodes += _residuals(vectors, k, scene.size)
+        words.append(
+            f"Residuals are drawn {k:g} times as long, from the measured point to where the nominal"
+            " arm (red) and the calibrated arm (blue) have it."
+        )
+    return replace(
+        scene,
+        title=f"Calibration: {found.chain.base} → {found.chain.tip}",
+        words=tuple(words),
+        arms=(*scene.arms, arm),
+        nodes=(*scene.nodes, *nodes),
+        shown=frozenset({"skeleton", "axes", "frames", "cloud"}),
+        tables=(correction_table(found),),
+        exaggerated=second.factor,
+    )
+
+
+def correction_table(found: Calibration) -> PageTable:
+    """Tilt and shift of each axis that could move, with how well they are known."""
+    rows = tuple(changes.row(joint) for joint in changes.joints(found))
+    return PageTable("Corrections of the axes", changes.HEADS, rows)
+
+
+def _factor(vectors: ResidualVectors, size: float) -> float:
+    """The largest factor of `STEPS` by which nine residuals of ten stay `VISIBLE`."""
+    lengths = np.linalg.norm([vectors.before, vectors.after], axis=-1)
+    largest = float(np.quantile(lengths, 0.9))
+    return next((k for k in (1000.0, *STEPS) if k * largest <= VISIBLE * size), 1.0)
+
+
+def _residuals(vectors: ResidualVectors, k: float, size: float) -> Iterator[Node]:
+    """Measured points, and arrows from them to where the two arms have them, k times as long."""
+    chosen = np.unique(np.linspace(0, len(vectors.places) - 1, MOST).round().astype(int))
+    measured = (vectors.places - vectors.after)[chosen]
+    lengths = np.linalg.norm(vectors.before[chosen], axis=1)
+    yield Cloud(Hung("cloud", "second", 0, name="measured points"), measured, 0.006 * size, lengths)
+    of_arms: tuple[tuple[Array, Role, str], ...] = (
+        (vectors.before, "differs", "residuals of the nominal arm"),
+        (vectors.after, "second", "residuals of the calibrated arm"),
+    )
+    for errors, role, name in of_arms:
+        arrows = _arrows(measured, k * errors[chosen], size)
+        if arrows is not None:
+            yield replace(arrows, hung=Hung("cloud", role, 0, name=f"{name} × {k:g}"))
+
+
+def _arrows(starts: Array, ways: Array, size: float) -> Triangles | None:
+    """Arrows from points along vectors, as one surface; None where all have no length."""
+    surfaces = []
+    for start, way in zip(starts, ways, strict=True):
+        length = float(np.linalg.norm(way))
+        if length < 1e-4 * size:
+            continue
+        thick = min(0.003 * size, 0.1 * length)
+        one = arrow(length, thick, 2.5 * thick, min(6.0 * thick, 0.4 * length), SIDES)
+        surfaces.append(one.placed(start, way / length))
+    if not surfaces:
+        return None
+    return Triangles(Hung("cloud", "second", 0), *merged(*surfaces))

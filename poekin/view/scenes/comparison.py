@@ -1,0 +1,102 @@
+"""Scene of a comparison: two models of one arm overlaid, what differs in red."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ...analysis.compare.comparison import Comparison, JointComparison
+from ...analysis.compare.joint_table import HEADS, joint_row
+from ...groups import se3
+from ..scene import PageTable, Scene
+from .arm import arm_scene, arm_size
+from .arm_parts.of_chain import chain_geometry
+from .exaggerated import compared_rows, exaggerated, zeros_and_directions
+from .overlay import second_arm, second_nodes
+
+MOST_WORDS = 8
+"""Sentences of the comparison that the page holds."""
+
+
+def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Scene:
+    """Scene of two models that were compared.
+
+    Parameters
+    ----------
+    found : Comparison
+        Result of `compare`.
+    q : (m,) array_like or dict, optional
+        Configuration of model a when the page opens, rad or m.
+    title : str, optional
+        Title of the page.
+
+    Returns
+    -------
+    scene : Scene
+        Model a at its base; model b, aligned as `found` says, at the same joint values; joints
+        that differ in the role "differs", and their differences as large as `exaggerated`, which
+        is the last coordinate of the second arm.
+
+    Raises
+    ------
+    ShapeError, UnknownName, InputError
+        If q does not fit model a.
+
+    Notes
+    -----
+    Accuracy: at a factor of 1 model b stands where `compare` has it, to the rounding of
+    `Chain.fk` (tests/view/scenes/test_comparison_scene.py).
+    """
+    scene = arm_scene(found.a, q=q, meshes=False)
+    second = exaggerated(found)
+    geometry = chain_geometry(found.b)
+    base = np.eye(4) if found.base is None else found.base
+    n = len(found.b.screws)
+    factors = np.zeros((n, found.a.dof))
+    shift = np.zeros(n)
+    if found.joints:
+        shift, directions = zeros_and_directions(found)
+        factors = directions[:, None] * found.a.coupling[compared_rows(found)]
+    arm = second_arm(second, base, factors, shift)
+    size = max(scene.size, arm_size(geometry, np.zeros(n)))
+    nodes = second_nodes(second, geometry, _sentences(found), _moved_ends(found), size)
+    lines = found.summary().splitlines()
+    words = [lines[-1], *lines[:-1]]
+    return replace(
+        scene,
+        title=title or f"Two models of one arm: {found.a.base} → {found.a.tip}",
+        words=tuple(words[:MOST_WORDS]),
+        arms=(*scene.arms, arm),
+        nodes=(*scene.nodes, *nodes),
+        shown=frozenset({"skeleton", "axes", "differences", "frames"}),
+        size=size,
+        tables=(joint_table(found),),
+        exaggerated=second.factor,
+    )
+
+
+def joint_table(found: Comparison) -> PageTable:
+    """The joints of both models side by side."""
+    rows = (tuple(map(str, joint_row(joint, found))) for joint in found.joints)
+    return PageTable("Joint by joint", HEADS, tuple(rows))
+
+
+def _sentences(found: Comparison) -> dict[str, str]:
+    """A sentence for each of b's joints that differ: that of the verdict, where it has one."""
+    return {joint.name_b: _sentence(joint, found) for joint in found.differing}
+
+
+def _sentence(joint: JointComparison, found: Comparison) -> str:
+    begin = f"joint {joint.number} ("
+    own = [words for words in found.findings if words.startswith(begin)]
+    return own[0] if own else joint.summary()
+
+
+def _moved_ends(found: Comparison) -> Iterator[str]:
+    """Names of b's base and tip, where they are elsewhere than a's."""
+    for name, moved in ((found.b.base, found.base), (found.b.tip, found.tool)):
+        if moved is not None and np.abs(se3.log(moved)).max() > found.tol_position:
+            yield name

@@ -1,0 +1,124 @@
+"""A second arm in a scene: where it stands beside the first, and what of it is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from ...groups import se3
+from ...groups.arrays import Array
+from ..kinematics import page_tips
+from ..nodes import Hung, Label, Layer, Node, Polyline, Role, Triangles
+from ..scene import SceneArm
+from .arm import scene_arm
+from .arm_parts.axes import axis_nodes, frame_nodes
+from .arm_parts.geometry import ArmGeometry
+from .arm_parts.of_chain import chain_geometry
+from .arm_parts.skeleton import glyph_radii, skeleton_nodes
+from .exaggerated import Exaggerated
+
+FADED = 0.6
+"""Opacity of the second arm."""
+
+
+def second_arm(second: Exaggerated, base: Array, factors: Array, shift: Array) -> SceneArm:
+    """The second arm, whose own coordinates are factors · q + shift, q the sliders.
+
+    Parameters: base (4, 4), its base in the world; factors (m, sliders) and shift (m,), of its own
+    coordinates but the last one k, which follows no slider.
+    """
+    chain = second.chain
+    geometry = chain_geometry(chain)
+    tips = page_tips(chain, ())
+    arm = scene_arm(chain, geometry, tips, np.zeros(chain.dof))
+    if second.factor > 1:
+        factors = np.vstack([factors, np.zeros(factors.shape[1])])
+        shift = np.append(shift, second.factor)
+    return replace(arm, base=base, factors=factors, shift=shift)
+
+
+def second_nodes(
+    second: Exaggerated,
+    geometry: ArmGeometry,
+    differing: dict[str, str],
+    ends: Iterable[str],
+    size: float,
+) -> list[Node]:
+    """Skeleton of the second arm; joints that differ with their axes and a label as the layer of
+    differences.
+
+    Parameters: geometry, of the chain as it is, not exaggerated; differing, a sentence for each
+    joint that is another one, by its name; ends, names of the frames to draw; size, of the arms.
+    """
+    radii = glyph_radii(geometry, np.zeros(len(geometry.sliders)), size)
+    arm = _on_bodies(geometry, second)
+    frames = tuple(frame for frame in arm.frames if frame.kind == "end" and frame.name in ends)
+    nodes = [*skeleton_nodes(arm, radii, size), *frame_nodes(replace(arm, frames=frames), size)]
+    drawn = [_of_second(node, differing) for node in nodes]
+    for k, joint in enumerate(arm.joints):
+        if joint.name not in differing:
+            continue
+        only = replace(arm, joints=(joint,))
+        for node in axis_nodes(only, radii[k : k + 1], size):
+            if not isinstance(node, Label):
+                drawn.append(_hung(node, "differences", "differs", differing[joint.name]))
+        hung = Hung("differences", "differs", joint.parent, 1, differing[joint.name])
+        drawn.append(Label(hung, joint.point + 2.5 * radii[k] * joint.direction, joint.name))
+    return drawn
+
+
+def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
+    """Geometry of the chain as it is, hung on the bodies of the exaggerated one."""
+    bodies = second.bodies
+    back = se3.exp(-second.moves)
+    joints = []
+    for k, joint in enumerate(geometry.joints):
+        R = back[k, :3, :3]
+        moved = replace(
+            joint,
+            parent=second.axes[k],
+            child=bodies[k + 1],
+            point=R @ joint.point + back[k, :3, 3],
+            direction=R @ joint.direction,
+        )
+        joints.append(moved)
+    last = len(geometry.joints)
+    frames = [
+        replace(frame, link=bodies[-1 if frame.link == last and frame.kind == "end" else frame.link])
+        for frame in geometry.frames
+    ]
+    names = [""] * (bodies[-1] + 1)
+    for k, name in enumerate(geometry.links):
+        names[bodies[k]] = name
+    return replace(
+        geometry,
+        links=tuple(names),
+        joints=tuple(joints),
+        bones=tuple(replace(bone, link=bodies[bone.link]) for bone in geometry.bones),
+        frames=tuple(frames),
+    )
+
+
+def _of_second(node: Node, differing: dict[str, str]) -> Node:
+    """A node of the first arm as one of the second."""
+    name = node.hung.name
+    if node.hung.layer == "skeleton" and node.hung.role == "joint" and name in differing:
+        return _hung(node, "differences", "differs", differing[name])
+    if node.hung.layer == "skeleton":
+        return _hung(node, "skeleton", "second", name, FADED)
+    return _hung(node, node.hung.layer, node.hung.role, name)
+
+
+def _hung(node: Node, layer: Layer, role: Role, name: str, opacity: float = 1.0) -> Node:
+    hung = replace(node.hung, arm=1, layer=layer, role=role, name=name, opacity=opacity)
+    return replace(node, hung=hung)
+
+
+def moved_node(node: Triangles | Polyline, pose: Array, hung: Hung) -> Triangles | Polyline:
+    """A node with its points moved by a pose, hung elsewhere."""
+    R = pose[:3, :3]
+    if isinstance(node, Triangles):
+        return Triangles(hung, node.vertices @ R.T + pose[:3, 3], node.faces)
+    return Polyline(hung, node.points @ R.T + pose[:3, 3], node.width)

@@ -1,0 +1,117 @@
+"""Scene of a path that was followed: its poses, and the joints along it to play."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ...errors import InputError
+from ...groups.arrays import Array
+from ...model.robot import Robot
+from ...solve.path.path_result import PathResult
+from ..nodes import Label, Node, Polyline, Triangles
+from ..scene import PathMark, Scene, SceneMotion
+from ..shapes import sphere
+from .stage import Stage, make_stage
+from .targets import pose_nodes
+
+SECONDS = 10.0
+"""Duration of a path without times of its own."""
+ROWS = 2000
+"""Configurations that the page plays: of longer paths every second one, or third, ..."""
+FRAMES = 24
+"""Target poses that are drawn."""
+MOST_WORDS = 12
+"""Sentences of the report that the page holds above the rest, which its path has."""
+
+
+def path_scene(path: PathResult, robot: Robot | None = None) -> Scene:
+    """Scene of a path that was followed.
+
+    Parameters
+    ----------
+    path : PathResult
+        Result of `follow`.
+    robot : Robot, optional
+        The robot of the arm, to be drawn in its place.
+
+    Returns
+    -------
+    scene : Scene
+        The arm at the first pose; the way of the tip, its near-singular stretches and those beyond
+        a limit marked, a ball at each change of branch; some of the target poses as frames; the
+        joints over time.
+
+    Raises
+    ------
+    InputError
+        If no pose of the path is made of finite numbers.
+    """
+    known = np.flatnonzero(np.isfinite(path.q).all(axis=1))
+    if not len(known):
+        raise InputError("view: a path with at least one finite pose expected")
+    stage = make_stage(path.chain, path.q[known[0]], robot)
+    points = np.full((len(path.q), 3), np.nan)
+    points[known] = path.chain.fk(path.q[known])[:, :3, 3]
+    targets = path.solution.target
+    frames: list[Node] = []
+    if targets is not None:
+        thinned = known[_evenly(len(known), FRAMES)]
+        frames = pose_nodes(stage, targets[thinned], 0.05 * stage.size, "pose")
+    scene = stage.with_result(
+        f"Path of {path.chain.tip} in {path.chain.base}",
+        path.summary().splitlines()[:MOST_WORDS],
+        [*_way(path, points, stage), *frames],
+        "path",
+    )
+    return replace(scene, motion=_motion(path, known, stage))
+
+
+def _way(path: PathResult, points: Array, stage: Stage) -> Iterator[Node]:
+    """The way of the tip, without what is no number, and what is marked on it."""
+    reached = np.isfinite(points).all(axis=1)
+    width = 0.005 * stage.size
+    yield Polyline(stage.hung("path", "path", "way of the tip"), points[reached], width)
+    for event in path.events:
+        hung = stage.hung("path", "marked", event.text)
+        stretch = points[event.first : event.last + 1]
+        stretch = stretch[np.isfinite(stretch).all(axis=1)]
+        if not len(stretch):
+            continue
+        if len(stretch) > 1:
+            yield Polyline(hung, stretch, 2.5 * width)
+        else:
+            ball = sphere(2.5 * width, 16)
+            yield Triangles(hung, ball.vertices + stretch[0], ball.faces)
+        if event.kind == "switch":
+            words = f"branch changes before pose {event.first}"
+            yield Label(hung, stretch[0] + 0.03 * stage.size, words)
+
+
+def _motion(path: PathResult, known: np.ndarray, stage: Stage) -> SceneMotion:
+    """Joints over time, every k-th row and those beside a change of branch; marks by these rows."""
+    switches = np.array(path.branch_switches, int)
+    wanted = np.concatenate([known[_evenly(len(known), ROWS)], switches, switches - 1])
+    rows = np.intersect1d(wanted, known)
+    times = path.times
+    if times is None:
+        times = np.linspace(0.0, SECONDS, len(path.q))
+    marks = [
+        PathMark(*_between(rows, event.first, event.last), event.kind, event.text)
+        for event in path.events
+    ]
+    return SceneMotion(stage.configurations(path.q[rows]), times[rows], tuple(marks))
+
+
+def _between(rows: np.ndarray, first: int, last: int) -> tuple[int, int]:
+    """Rows of the motion from the point `first` to `last`, one at least."""
+    end = len(rows) - 1
+    begin = min(int(np.searchsorted(rows, first)), end)
+    return begin, max(begin, int(np.searchsorted(rows, last, side="right")) - 1)
+
+
+def _evenly(count: int, most: int) -> np.ndarray:
+    """Indices of at most so many of `count` things, the first and the last among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))

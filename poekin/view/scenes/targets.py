@@ -1,0 +1,101 @@
+"""Poses as small frames in the world, and the solutions of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...analysis.amounts import Unit, amount
+from ...errors import InputError
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.robot import Robot
+from ...solve.ik.solution import Solution
+from ...solve.ik_all.all_solutions import AllSolutions
+from ..nodes import Label, Node, Triangles
+from ..scene import Scene, SceneChoice
+from ..shapes import frame_axes
+from .arm_parts.axes import XYZ
+from .stage import Stage, make_stage
+
+MOST = 32
+"""Configurations that a reader can choose."""
+
+
+def pose_nodes(stage: Stage, poses: Array, length: float, name: str) -> list[Node]:
+    """Frames at poses (n, 4, 4) in the chain's base, m, as arrows of a length."""
+    names = [name] if len(poses) == 1 else [f"{name} {k}" for k in range(len(poses))]
+    return [
+        Triangles(stage.hung("path", role, words), *axis)
+        for words, pose in zip(names, poses, strict=True)
+        for role, axis in zip(XYZ, frame_axes(pose, length), strict=True)
+    ]
+
+
+def target_nodes(stage: Stage, poses: Array) -> list[Node]:
+    """Frames at targets, the word "target" beside a single one."""
+    nodes = pose_nodes(stage, poses, 0.1 * stage.size, "target")
+    if len(poses) == 1:
+        place = poses[0, :3, 3] + 0.03 * stage.size
+        nodes.append(Label(stage.hung("path", "path", "target"), place, "target"))
+    return nodes
+
+
+def configuration_words(chain: Chain, q: Array) -> str:
+    """A configuration for reading: "12.5°, −3°, 20 mm"."""
+    units: list[Unit] = ["rad" if chain.is_angle(k) else "m" for k in range(chain.dof)]
+    return ", ".join(amount(float(x), unit, 3) for x, unit in zip(q, units, strict=True))
+
+
+def asked_of(found: Solution | AllSolutions) -> tuple[Chain, Array]:
+    """Arm and targets (n, 4, 4) of a result. Raises: InputError where it was made by hand."""
+    if found.chain is None or found.target is None:
+        kind = type(found).__name__
+        raise InputError(f"view: {kind}: expected one that ik or ik_all returned, with its chain")
+    return found.chain, found.target.reshape(-1, 4, 4)
+
+
+def solution_scene(found: Solution, robot: Robot | None = None) -> Scene:
+    """Scene of `ik`: the arm at the solution, and the target.
+
+    Parameters
+    ----------
+    found : Solution
+        Result of `ik`.
+    robot : Robot, optional
+        The robot of the arm, to be drawn in its place.
+
+    Returns
+    -------
+    scene : Scene
+        The arm at its solution, or where it comes nearest to the target; of several targets the
+        first `MOST`, one of which a reader chooses.
+
+    Raises
+    ------
+    InputError
+        If the result holds no chain, or no finite target.
+    """
+    chain, poses = asked_of(found)
+    q = found.q.reshape(-1, chain.dof)
+    known = np.flatnonzero(np.isfinite(q).all(axis=1) & np.isfinite(poses).all(axis=(1, 2)))
+    if not len(known):
+        raise InputError(f"view: expected a finite target, got {found.summary()}")
+    stage = make_stage(chain, q[known[0]], robot)
+    shown = known[:MOST]
+    scene = stage.with_result(
+        f"Inverse kinematics of {chain.tip} in {chain.base}",
+        [found.summary()],
+        target_nodes(stage, poses[shown]),
+        "path",
+    )
+    if not found.success.ndim:
+        return scene
+    if len(known) > MOST:
+        more = f"The first {MOST} of {len(known)} targets are shown."
+        scene = replace(scene, words=(scene.words[0], more, *scene.words[1:]))
+    rows = stage.configurations(q[shown])
+    flat = zip(shown.tolist(), rows, found.reason.reshape(-1)[shown], strict=True)
+    choices = tuple(SceneChoice(row, f"target {k}: {reason}") for k, row, reason in flat)
+    return replace(scene, choices=choices)

@@ -1,0 +1,96 @@
+"""The scene of a comparison: what `compare` says is what is red, and where it says b stands."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.view.nodes import Label
+from poekin.view.scenes.comparison import comparison_scene
+
+ARM = pk.load("panda").chain(tip="panda_hand")
+
+
+def lifted(joint=3, length=0.003):
+    screws = ARM.screws.copy()
+    screws[joint] = pk.se3.adjoint(pk.se3.exp([0, 0, 0, 0, 0, length])) @ screws[joint]
+    return ARM.replace(screws=screws)
+
+
+def red(scene):
+    return {node.hung.name for node in scene.nodes if node.hung.role == "differs"}
+
+
+@pytest.mark.parametrize("joint", [1, 3, 5])
+def test_the_joint_that_compare_names_is_the_one_that_is_red(joint):
+    found = pk.compare(ARM, lifted(joint))
+    (differing,) = found.differing
+    scene = comparison_scene(found)
+    (sentence,) = red(scene)
+    assert sentence.startswith(f"joint {joint + 1} ('{differing.name_b}') has an axis that is 3 mm")
+    (label,) = [n.text for n in scene.nodes if isinstance(n, Label) and n.hung.arm == 1]
+    assert label == differing.name_b
+    assert {n.hung.layer for n in scene.nodes if n.hung.role == "differs"} == {"differences"}
+    assert "differences" in scene.shown
+
+
+def test_the_words_begin_with_the_outcome_and_the_table_has_each_joint():
+    found = pk.compare(ARM, lifted())
+    scene = comparison_scene(found, title="a and b")
+    assert scene.title == "a and b"
+    lines = found.summary().splitlines()
+    assert scene.words == (lines[-1], *lines[:-1])
+    (table,) = scene.tables
+    assert [row[3] for row in table.rows] == ["same"] * 3 + ["DIFFERS"] + ["same"] * 3
+    assert table.rows[3][6] == "3"
+    assert {len(row) for row in table.rows} == {len(table.heads)}
+
+
+def test_the_second_arm_stands_where_compare_aligned_it():
+    b = lifted().rezeroed([0.1, 0, 0, 0, -0.2, 0, 0]).rebased(pk.se3.exp([0, 0, 1, 0, 2, 0]))
+    found = pk.compare(ARM, b)
+    scene = comparison_scene(found)
+    first, second = scene.arms
+    assert scene.exaggerated > 1
+    q = ARM.random(4)
+    own = second.factors @ q + second.shift
+    assert own[-1] == scene.exaggerated  # k when the page opens
+    aligned = second.base @ found.b.fk(own[:-1]) @ found.tool
+    true = ARM.fk(q)
+    # the axis that is 3 mm off moves the tool by up to 6 mm
+    assert np.abs(aligned - true)[:3, 3].max() < 0.007
+    assert np.abs(aligned - true)[:3, :3].max() < 1e-9
+    assert first.coordinates[0].name == ARM.q_names[0]
+
+
+def test_reversed_joints_and_other_zeros_stand_on_the_first_arm():
+    screws = ARM.screws.copy()
+    screws[2] *= -1
+    found = pk.compare(ARM, ARM.replace(screws=screws).rezeroed([0, 0.3, 0, 0, 0, 0, 0]))
+    scene = comparison_scene(found)
+    second = scene.arms[1]
+    assert (scene.exaggerated, second.factors[2, 2]) == (1.0, -1.0)
+    q = ARM.random(5)
+    found_at = second.base @ found.b.fk(second.factors @ q + second.shift) @ found.tool
+    np.testing.assert_allclose(found_at, ARM.fk(q), atol=1e-9)
+    assert len(red(scene)) == len(found.differing) == 2
+
+
+def test_joints_that_cannot_be_matched_are_drawn_as_they_stand():
+    other = pk.load("ur5").chain()
+    found = pk.compare(ARM, other)
+    assert not found.joints
+    scene = comparison_scene(found)
+    assert not red(scene)
+    assert not scene.arms[1].factors.any()
+    assert scene.words[0].startswith("The models differ: 7 joints against 6")
+
+
+def test_a_dropped_joint_leaves_the_others_on_their_sliders():
+    short = pk.Chain(np.delete(ARM.screws, 2, axis=0), ARM.home, frame="space", joint_names=[n for k, n in enumerate(ARM.joint_names) if k != 2])  # fmt: skip
+    found = pk.compare(ARM, short)
+    assert found.unmatched_joints == ("a", "panda_joint3")
+    factors = comparison_scene(found).arms[1].factors
+    assert factors.shape == (6, 7)
+    np.testing.assert_array_equal(np.abs(factors), np.delete(np.eye(7), 2, axis=0))

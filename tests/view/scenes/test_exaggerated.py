@@ -1,0 +1,110 @@
+"""An exaggerated model: at k = 1 it is model b, at k = 0 model a, and between and beyond a screw."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.view.scenes.exaggerated import (
+    FACTOR,
+    compared_rows,
+    exaggerated,
+    zeros_and_directions,
+)
+
+ARM = pk.load("panda").chain(tip="panda_hand")
+SIZES = st.floats(-1, 1)
+# Products of some 20 exponentials of metres, and the alignment of `compare`, which is its own.
+TIGHT = 1e-12
+
+
+def moved(joint: int, twist: Any) -> pk.Chain:
+    """The arm, one of its axes moved."""
+    screws = ARM.screws.copy()
+    screws[joint] = pk.se3.adjoint(pk.se3.exp(twist)) @ screws[joint]
+    return ARM.replace(screws=screws)
+
+
+def own(found: Any, q: Any) -> np.ndarray:
+    """Coordinates of model b where those of a are q."""
+    zeros, directions = zeros_and_directions(found)
+    return directions * (found.a.coupling[compared_rows(found)] @ q) + zeros
+
+
+def axis_at(made: Any, k: float, joint: int, q: Any) -> np.ndarray:
+    """Place and direction of an axis as the page draws it."""
+    chain = made.chain
+    at_rest = pk.se3.exp(-made.moves[joint]) if made.factor > 1 else np.eye(4)
+    axis = pk.se3.adjoint(at_rest) @ chain.screws[made.axes[joint]]
+    zero = np.zeros(chain.dof)
+    bodies = [np.eye(4), *(chain.joint_poses(np.append(q, k)) @ pk.se3.inverse(chain.joint_poses(zero)))]
+    return pk.se3.adjoint(bodies[made.axes[joint]]) @ axis
+
+
+@given(st.integers(1, 5), st.lists(SIZES, min_size=6, max_size=6), st.integers(0, 2**31))
+@settings(max_examples=25, deadline=None)
+def test_at_one_it_is_b_and_at_zero_a_at_all_joint_values(joint, sizes, seed):
+    twist = np.array(sizes) * [3e-3, 3e-3, 3e-3, 5e-3, 5e-3, 5e-3]
+    base = pk.se3.exp([0.3, -0.2, 0.5, 0.1, 0.2, -0.4])
+    found = pk.compare(ARM, moved(joint, twist).rebased(base))
+    made = exaggerated(found)
+    q = ARM.random(seed)
+    y = own(found, q)
+    if made.factor == 1:
+        np.testing.assert_array_equal(made.chain.fk(y), found.b.fk(y))
+        return
+    np.testing.assert_allclose(made.chain.fk([*y, 1.0]), found.b.fk(y), atol=TIGHT)
+    if all(not j.axis_differs or j.number == joint + 1 for j in found.joints):
+        a_again = found.base @ made.chain.fk([*y, 0.0]) @ found.tool
+        # what is within the tolerance of 1e-5 m is left as it is
+        np.testing.assert_allclose(a_again, ARM.fk(q), atol=1e-4)
+
+
+def test_an_axis_of_3_mm_is_drawn_k_times_3_mm_away():
+    found = pk.compare(ARM, moved(3, [0, 0, 0, 0, 0, 0.003]))
+    made = exaggerated(found)
+    assert made.chain.q_names[-1] == FACTOR
+    assert made.factor == 20.0  # 60 mm of a reach of 1.1 m; 50 would be 150 mm
+    q = np.zeros(7)
+    at_a = axis_at(made, 0.0, 3, q)
+    np.testing.assert_allclose(at_a, ARM.screws[3], atol=1e-12)
+    for k in (1.0, 7.0, made.factor):
+        lifted = pk.se3.adjoint(pk.se3.exp([0, 0, 0, 0, 0, 0.003 * k])) @ ARM.screws[3]
+        np.testing.assert_allclose(axis_at(made, k, 3, q), lifted, atol=1e-9)
+
+
+def test_bodies_are_those_behind_the_joints_whatever_k_is():
+    found = pk.compare(ARM, moved(3, [0, 0, 0, 0, 0, 0.003]))
+    made = exaggerated(found)
+    assert made.bodies == (0, 1, 2, 3, 6, 7, 8, 9, 9)
+    assert made.axes == (0, 1, 2, 4, 6, 7, 8)
+    rest = made.chain.joint_poses(np.zeros(8))
+    at_20 = made.chain.joint_poses([0, 0, 0, 0, 0, 0, 0, 20.0])
+    # a body behind a joint stands still as k grows, where all joints are at 0
+    for body in made.bodies[1:]:
+        displacement = at_20[body - 1] @ pk.se3.inverse(rest[body - 1])
+        np.testing.assert_allclose(displacement, np.eye(4), atol=1e-12)
+
+
+def test_a_slide_that_leans_and_a_link_that_is_longer_are_exaggerated_too():
+    A = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([1, 0, 0]), pk.screw.revolute([0, 1, 0], [0.5, 0, 0]), pk.screw.revolute([1, 0, 0], [0.5, 0.2, 0])]
+    arm = pk.Chain.from_space(A, pk.se3.exp([0, 0, 0, 0.8, 0.2, 0]))
+    A[1] = pk.screw.prismatic([np.cos(0.01), np.sin(0.01), 0])
+    found = pk.compare(arm, pk.Chain.from_space(A, arm.home))
+    made = exaggerated(found)
+    assert made.factor > 1
+    ways = [axis_at(made, k, 1, np.zeros(4))[3:] for k in (0, 1, made.factor)]
+    angles = [np.arctan2(way[1], way[0]) for way in ways]
+    assert angles == pytest.approx([0, 0.01, 0.01 * made.factor], abs=1e-9)
+
+
+def test_models_that_agree_have_no_factor():
+    for b in (ARM, ARM.rebased(pk.se3.exp([0, 0, 1, 0, 0, 0]))):
+        made = exaggerated(pk.compare(ARM, b))
+        assert (made.factor, made.chain.dof) == (1.0, 7)
+        assert made.bodies == (*range(8), 7)
