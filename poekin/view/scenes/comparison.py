@@ -62,7 +62,7 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
         factors = directions[:, None] * found.a.coupling[compared_rows(found)]
     arm = second_arm(second, base, factors, shift)
     size = max(scene.size, arm_size(geometry, np.zeros(n)))
-    nodes = second_nodes(second, geometry, _sentences(found), _moved_ends(found), size)
+    nodes = second_nodes(second, geometry, _sentences(found), set(_moved_ends(found)), size)
     lines = found.summary().splitlines()
     words = [lines[-1], *lines[:-1]]
     return replace(

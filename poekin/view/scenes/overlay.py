@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container
 from dataclasses import replace
 
 import numpy as np
@@ -43,7 +43,7 @@ def second_nodes(
     second: Exaggerated,
     geometry: ArmGeometry,
     differing: dict[str, str],
-    ends: Iterable[str],
+    ends: Container[str],
     size: float,
 ) -> list[Node]:
     """Skeleton of the second arm; joints that differ with their axes and a label as the layer of
@@ -55,7 +55,10 @@ def second_nodes(
     radii = glyph_radii(geometry, np.zeros(len(geometry.sliders)), size)
     arm = _on_bodies(geometry, second)
     frames = tuple(frame for frame in arm.frames if frame.kind == "end" and frame.name in ends)
-    nodes = [*skeleton_nodes(arm, radii, size), *frame_nodes(replace(arm, frames=frames), size)]
+    nodes = [
+        *skeleton_nodes(arm, radii, size),
+        *frame_nodes(replace(arm, frames=frames), radii, size),
+    ]
     drawn = [_of_second(node, differing) for node in nodes]
     for k, joint in enumerate(arm.joints):
         if joint.name not in differing:

@@ -94,3 +94,14 @@ def test_a_dropped_joint_leaves_the_others_on_their_sliders():
     factors = comparison_scene(found).arms[1].factors
     assert factors.shape == (6, 7)
     np.testing.assert_array_equal(np.abs(factors), np.delete(np.eye(7), 2, axis=0))
+
+
+def test_frames_of_the_second_arm_are_drawn_where_they_are_elsewhere():
+    up = pk.se3.exp([0, 0, 0, 0, 0, 0.1])
+    for b, ends in ((ARM.rebased(up), {ARM.base}), (ARM.retooled(up), {ARM.tip}), (ARM, set())):
+        scene = comparison_scene(pk.compare(ARM, b))
+        frames = [n for n in scene.nodes if n.hung.layer == "frames" and n.hung.arm == 1]
+        assert {n.hung.name for n in frames} == ends
+    both = comparison_scene(pk.compare(ARM, ARM.rebased(up).retooled(up)))
+    names = {n.hung.name for n in both.nodes if n.hung.layer == "frames" and n.hung.arm == 1}
+    assert names == {ARM.base, ARM.tip}
