@@ -7,7 +7,11 @@ import pytest
 
 import poekin as pk
 from poekin.view.nodes import Label
+from poekin.view.scenes.arm_parts.of_chain import chain_geometry
+from poekin.view.scenes.arm_parts.skeleton import glyph_radii, skeleton_nodes
 from poekin.view.scenes.comparison import comparison_scene
+from poekin.view.scenes.exaggerated import exaggerated
+from poekin.view.scenes.overlay import second_nodes
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 
@@ -105,3 +109,19 @@ def test_frames_of_the_second_arm_are_drawn_where_they_are_elsewhere():
     both = comparison_scene(pk.compare(ARM, ARM.rebased(up).retooled(up)))
     names = {n.hung.name for n in both.nodes if n.hung.layer == "frames" and n.hung.arm == 1}
     assert names == {ARM.base, ARM.tip}
+
+
+def test_links_of_the_second_arm_are_where_model_b_has_them():
+    found = pk.compare(ARM, lifted())
+    made = exaggerated(found)
+    b = chain_geometry(found.b)
+    q = ARM.random(8)
+    plain = b.poses(q)
+    drawn = chain_geometry(made.chain).poses(np.append(q, 1.0))
+    radii = glyph_radii(b, np.zeros(7), 1.0)
+    true = [n for n in skeleton_nodes(b, radii, 1.0) if n.hung.role == "first"]
+    nodes = [n for n in second_nodes(made, b, {}, (), 1.0) if n.hung.layer == "skeleton"]
+    assert len(true) == 6
+    for one, other in zip(true, nodes, strict=False):
+        np.testing.assert_array_equal(one.vertices, other.vertices)
+        np.testing.assert_allclose(drawn[other.hung.link], plain[one.hung.link], atol=1e-12)

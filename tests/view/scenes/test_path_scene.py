@@ -102,3 +102,10 @@ def test_poses_of_nan_are_passed_over():
     assert scene.motion.times[5] == 6 * SECONDS / 19
     with pytest.raises(InputError, match="at least one finite pose"):
         path_scene(pk.follow(ARM, T[5:6]))
+
+
+def test_the_way_of_a_part_of_a_robot_hangs_on_the_link_where_the_part_begins():
+    part = ROBOT.chain(base="panda_link2", tip="panda_hand")
+    scene = path_scene(joint_path(part, Q[:, 2:]), ROBOT)
+    links = {n.hung.link for n in scene.nodes if n.hung.layer == "path"}
+    assert links == {ROBOT.links.index("panda_link2")}
