@@ -35,6 +35,7 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "poses": ("poses: formats of controllers, ROS and spreadsheets", ("poses",)),
     "calibration": ("Calibration", ("calibrate", "choose_poses", "calibration")),
     "emit": ("emit: source code of an arm", ("emit",)),
+    "view": ("view: pages in which arms move", ("view",)),
     "count": ("Operation counts", ("count", "count_table")),
     "errors": ("Errors and warnings", ("PoekinError", "PoekinWarning", "errors")),
 }  # fmt: skip
@@ -89,6 +90,7 @@ RESULTS: dict[str, str] = {
     "poekin.analysis.counting.count_table.CountTable": "count",
     "poekin.analysis.counting.count_table.CountRow": "count",
     "poekin.engine.count.Count": "count",
+    "poekin.view.page.Page": "view",
 }
 
 
@@ -201,7 +203,7 @@ def links(name: str) -> dict[str, str]:
     for dotted in documented():
         parts = dotted.split(".")
         if not dotted.startswith(
-            ("poekin.model.", "poekin.analysis.", "poekin.solve.", "poekin.engine.")
+            ("poekin.model.", "poekin.analysis.", "poekin.solve.", "poekin.engine.", "poekin.view.")
         ):
             found[".".join(parts[1:])] = found["pk." + ".".join(parts[1:])] = found[dotted] = dotted
         else:

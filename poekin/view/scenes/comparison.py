@@ -14,8 +14,8 @@ from ...groups import se3
 from ..scene import PageTable, Scene
 from .arm import arm_scene, arm_size
 from .arm_parts.of_chain import chain_geometry
-from .exaggerated import compared_rows, exaggerated, zeros_and_directions
-from .overlay import second_arm, second_nodes
+from .two_arms.exaggerated import compared_rows, exaggerated, zeros_and_directions
+from .two_arms.overlay import second_arm, second_nodes
 
 MOST_WORDS = 8
 """Sentences of the comparison that the page holds."""

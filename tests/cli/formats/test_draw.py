@@ -26,15 +26,16 @@ def lines(tmp_path):
     made = pk.calibration.simulated(ur, 30, seed=1)
     pk.calibration.write(tmp_path / "data.csv", ur, made.q, made.measurements)
     pose = [f"{x:.17g}" for x in T[0, :3].ravel()]
+    of_file = [*TIP, "--format", "12", "--input", tmp_path / "T.csv"]
     return {
         "compare": ["compare", "ur5", "ur5e"],
         "singularity": ["singularity", *TIP, "--at", ",".join(map(str, Q))],
         "ik": ["ik", *TIP, "--format", "12", "--", *pose],
-        "ik of many": ["ik", *TIP, "--format", "12", "--input", tmp_path / "T.csv"],
-        "follow": ["follow", *TIP, "--format", "12", "--input", tmp_path / "T.csv"],
-        "fastest": ["follow", *TIP, "--format", "12", "--input", tmp_path / "T.csv", "--fastest", "--acceleration", "5"],
+        "ik of many": ["ik", *of_file],
+        "follow": ["follow", *of_file],
+        "fastest": ["follow", *of_file, "--fastest", "--acceleration", "5"],
         "calibrate": ["calibrate", "ur5", tmp_path / "data.csv", "--folds", "0"],
-    }  # fmt: skip
+    }
 
 
 def with_options(line, *options):
@@ -66,7 +67,8 @@ def test_json_stays_json(lines, poekin, tmp_path):
     for name in ("compare", "singularity", "follow", "calibrate"):
         page = tmp_path / f"{name}.html"
         _, out, err = poekin(*with_options(lines[name], "--draw", page, "--json"))
-        assert err == "" and json.loads(out)
+        assert err == ""
+        assert json.loads(out)
         assert page.is_file()
 
 

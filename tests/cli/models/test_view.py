@@ -67,7 +67,11 @@ def test_from_another_base_it_is_a_chain(scene, crane):
 def test_a_second_model_is_laid_over_the_first(scene, crane, tmp_path):
     other = tmp_path / "other.urdf"
     text = Path(crane).read_text()
-    other.write_text(text.replace('<axis xyz="1 0 0"/>', '<axis xyz="0.9999500004166653 0 0.009999833334166664"/>'))
+    other.write_text(
+        text.replace(
+            '<axis xyz="1 0 0"/>', '<axis xyz="0.9999500004166653 0 0.009999833334166664"/>'
+        )
+    )
     found = scene(crane, "--tip", "hook", "--compare", other, "--q", "0.5,0.5")
     assert len(found["arms"]) == 2
     assert found["exaggerated"] > 1

@@ -26,8 +26,10 @@ def test_a_path_that_was_followed_has_the_same_events_again():
 
 def test_without_times_there_are_no_rates():
     path = joint_path(ARM, np.zeros((3, 7)))
-    assert path.rates is None and not path.speed_violations
-    assert path.ok and not path.branch_switches
+    assert path.rates is None
+    assert not path.speed_violations
+    assert path.ok
+    assert not path.branch_switches
 
 
 @pytest.mark.parametrize("q", [np.zeros(7), np.zeros((0, 7)), np.zeros((2, 5))])

@@ -41,7 +41,9 @@ def test_the_red_joint_of_words_labels_and_drawn_objects_is_the_one_that_compare
     (joint,) = found.differing
     (sentence,) = found.findings
     assert joint.number == JOINT + 1
-    words = opened.ask("[...document.querySelectorAll('#poekin-panel p')].map((p) => p.textContent)")
+    words = opened.ask(
+        "[...document.querySelectorAll('#poekin-panel p')].map((p) => p.textContent)"
+    )
     assert [w for w in words if w.lower() == sentence.lower()]
     seen = opened.ask("""[...document.querySelectorAll(".label")]
         .filter((e) => e.checkVisibility({ visibilityProperty: true })).map((e) => e.textContent)""")

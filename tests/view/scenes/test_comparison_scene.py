@@ -10,8 +10,8 @@ from poekin.view.nodes import Label
 from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.arm_parts.skeleton import glyph_radii, skeleton_nodes
 from poekin.view.scenes.comparison import comparison_scene
-from poekin.view.scenes.exaggerated import exaggerated
-from poekin.view.scenes.overlay import second_nodes
+from poekin.view.scenes.two_arms.exaggerated import exaggerated
+from poekin.view.scenes.two_arms.overlay import second_nodes
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 
@@ -92,7 +92,9 @@ def test_joints_that_cannot_be_matched_are_drawn_as_they_stand():
 
 
 def test_a_dropped_joint_leaves_the_others_on_their_sliders():
-    short = pk.Chain(np.delete(ARM.screws, 2, axis=0), ARM.home, frame="space", joint_names=[n for k, n in enumerate(ARM.joint_names) if k != 2])  # fmt: skip
+    names = [name for k, name in enumerate(ARM.joint_names) if k != 2]
+    screws = np.delete(ARM.screws, 2, axis=0)
+    short = pk.Chain(screws, ARM.home, frame="space", joint_names=names)
     found = pk.compare(ARM, short)
     assert found.unmatched_joints == ("a", "panda_joint3")
     factors = comparison_scene(found).arms[1].factors

@@ -46,7 +46,8 @@ def test_in_its_robot_the_way_hangs_on_the_base_and_other_coordinates_rest():
     index = [ROBOT.q_names.index(name) for name in ARM.q_names]
     np.testing.assert_array_equal(scene.motion.q[:, index], Q)
     rest = np.delete(scene.motion.q, index, axis=1)
-    assert rest.shape[1] == 1 and not rest.any()
+    assert rest.shape[1] == 1
+    assert not rest.any()
     assert (scene.motion.times[0], scene.motion.times[-1]) == (0.0, SECONDS)
 
 

@@ -7,16 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...groups import se3
-from ...groups.arrays import Array
-from ..kinematics import page_tips
-from ..nodes import Hung, Label, Layer, Node, Polyline, Role, Triangles
-from ..scene import SceneArm
-from .arm import scene_arm
-from .arm_parts.axes import axis_nodes, frame_nodes
-from .arm_parts.geometry import ArmGeometry
-from .arm_parts.of_chain import chain_geometry
-from .arm_parts.skeleton import glyph_radii, skeleton_nodes
+from ....groups import se3
+from ....groups.arrays import Array
+from ...kinematics import page_tips
+from ...nodes import Hung, Label, Layer, Node, Polyline, Role, Triangles
+from ...scene import SceneArm
+from ..arm import scene_arm
+from ..arm_parts.axes import axis_nodes, frame_nodes
+from ..arm_parts.geometry import ArmGeometry
+from ..arm_parts.of_chain import chain_geometry
+from ..arm_parts.skeleton import glyph_radii, skeleton_nodes
 from .exaggerated import Exaggerated
 
 FADED = 0.6
@@ -89,7 +89,9 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
         joints.append(moved)
     last = len(geometry.joints)
     frames = [
-        replace(frame, link=bodies[-1 if frame.link == last and frame.kind == "end" else frame.link])
+        replace(
+            frame, link=bodies[-1 if frame.link == last and frame.kind == "end" else frame.link]
+        )
         for frame in geometry.frames
     ]
     names = [""] * (bodies[-1] + 1)
