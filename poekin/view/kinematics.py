@@ -35,7 +35,7 @@ def page_tips(model: Model, names: Iterable[str] = ()) -> tuple[SceneTip, ...]:
     """
     if isinstance(model, Chain):
         return (SceneTip(model.tip, len(model.kinds), tuple(range(model.dof))),)
-    held = _held(model)
+    held = fix_free_joints(model)
     return tuple(
         SceneTip(name, model.links.index(name), tuple(map(model.q_names.index, chain.q_names)))
         for name in dict.fromkeys((*names, *default_tips(model)))
@@ -50,7 +50,7 @@ def default_tips(robot: Robot) -> tuple[str, ...]:
     the one that most coordinates move which move no leaf before it, of several the one that most
     coordinates move. Leaves that no joint moves are left out, unless there are no others.
     """
-    held = _held(robot)
+    held = fix_free_joints(robot)
     above = {joint.child: joint.parent for joint in robot.joints}
     last: dict[str, Chain] = {}
     for leaf in robot.leaves:
@@ -94,7 +94,7 @@ def kinematics(model: Model, tips: Iterable[SceneTip]) -> str:
         chains = [model] * len(tips)
     else:
         links = links_task(model)
-        held = _held(model)
+        held = fix_free_joints(model)
         chains = [held.chain(tip=tip.name) for tip in tips]
     tasks = [
         EmittedFunction(f"tip{k}", 1, True, chain.compile().program("hybrid", pose=True))
@@ -113,7 +113,7 @@ def _tips(tips: Iterable[SceneTip]) -> str:
     return "\n".join(["export const tips = [", *lines, "];", ""])
 
 
-def _held(robot: Robot) -> Robot:
+def fix_free_joints(robot: Robot) -> Robot:
     """The robot with its floating and planar joints fixed at their zero pose, so that chains cross
     them.
     """

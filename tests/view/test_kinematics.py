@@ -122,7 +122,7 @@ def test_so_are_those_of_built_in_arms_mimics_and_readings(pages):
     robots.append(
         load("puma560").coupled(["joint3 = joint2 + joint3", "joint6 = 2 joint6 - 1/80 joint5"])
     )
-    robots += [two_arms(), two_arms().coupled("r = r - 0.5 h")]
+    robots += [two_arms(), two_arms().coupled("r = r - 0.5 h"), pk.Robot("one", ["a"], [])]
     for robot in robots:
         pages.add_robot(robot, rng.uniform(-3, 3, (5, robot.dof)), [robot.root])
     assert max(pages.worst()) <= 1
