@@ -16,6 +16,9 @@ from ..errors import MissingExtra
 from .nodes import Cloud, Hung, Label, Node, Polyline, Triangles
 from .palette import color
 
+LEVEL = 6
+"""Level of compression: a page of meshes is made in half the time of level 9, and 1 % larger."""
+
 Drawable = Triangles | Polyline | Cloud
 
 
@@ -28,7 +31,7 @@ class DrawnObject:
 
     @property
     def hung(self) -> Hung:
-        """Where all its nodes are hung; the name is the first's."""
+        """Link, layer and look of all its nodes; the name is the first's."""
         return self.nodes[0].hung
 
 
@@ -63,17 +66,17 @@ def snapshot(objects: Sequence[DrawnObject], script: str) -> str:
         camera_fov=35.0,
         axes_helper=0.0,
         colorbar_object_id=0,
-        lighting=2.0,
+        lighting=1.6,
     )
     for drawn in objects:
         made = _made(k3d, drawn)
         made.id = drawn.number  # k3d's own is the address in memory: no two pages would be equal
         plot += made
-    return plot.get_snapshot(additional_js_code=script)
+    return plot.get_snapshot(LEVEL, additional_js_code=script)
 
 
 def _look(node: Drawable, place: int) -> tuple[object, ...]:
-    """What nodes of one object have in common."""
+    """Look and link of a node, equal for all nodes of one object."""
     h = node.hung
     own: object = None
     if isinstance(node, Polyline):

@@ -31,11 +31,16 @@ SCRIPTS = (
 _HEAD = """<meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline' \
 'unsafe-eval' blob:; style-src 'unsafe-inline'; img-src data: blob:; \
-font-src * data: file:; \
+font-src data:; \
 connect-src data: blob:; worker-src blob:">
 <link rel="icon" href="data:,">
 <title>$TITLE</title>
 <script>window.poekinPlot = new Promise((plotted) => { window.poekinPlotted = plotted; });</script>
+"""
+# k3d's fonts of formulas are in the page; it names files of them beside the page too.
+_NO_FILES = """<script>if (typeof k3dSource === "string") {
+    k3dSource = k3dSource.replace(/,url\\(fonts\\/[^)]*\\) format\\("[a-z]+"\\)/g, "");
+}</script>
 """
 _DRAWN = "window.poekinPlotted(K3DInstance);"
 _FRAME = (
@@ -123,6 +128,7 @@ def page(scene: Scene) -> Page:
         _HEAD.replace("$TITLE", title),
         style,
         f"<style>\n{_web('page.css')}</style>\n",
+        _NO_FILES,
         end,
         body,
         f'<script type="application/json" id="poekin-scene">{scene_json(scene, objects)}</script>\n',

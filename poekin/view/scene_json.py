@@ -44,24 +44,24 @@ def scene_json(scene: Scene, objects: Sequence[DrawnObject]) -> str:
     return text
 
 
-def _arm(arm: SceneArm) -> dict[str, object]:
+def _arm(arm: SceneArm) -> dict[str, Any]:
     """An arm without its program, which the page runs."""
     fields = {f.name: getattr(arm, f.name) for f in dataclasses.fields(arm)}
     del fields["program"]
     return fields | {"base": np.ravel(arm.base)}
 
 
-def _object(drawn: DrawnObject) -> dict[str, object]:
+def _object(drawn: DrawnObject) -> dict[str, Any]:
     names = [n.hung.name for n in drawn.nodes]
     own = {"id": drawn.number, "kind": _KINDS[type(drawn.nodes[0])], "names": names}
     return own | _hung(drawn.hung)
 
 
-def _label(node: Label) -> dict[str, object]:
+def _label(node: Label) -> dict[str, Any]:
     return {"text": node.text, "point": node.point} | _hung(node.hung)
 
 
-def _hung(hung: Hung) -> dict[str, object]:
+def _hung(hung: Hung) -> dict[str, Any]:
     fields = {f.name: getattr(hung, f.name) for f in dataclasses.fields(hung)}
     return fields | {"color": _css(color(hung))}
 

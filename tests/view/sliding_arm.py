@@ -169,7 +169,7 @@ def box(hung: Hung, middle: Any, sizes: Any) -> Triangles:
 def arrow(hung: Hung) -> Triangles:
     """Thin pyramid from the origin to (0, 0, 1)."""
     foot = 0.03 * np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
-    faces = [[k, (k + 1) % 4, 4] for k in range(4)]
+    faces: Any = [[k, (k + 1) % 4, 4] for k in range(4)]
     return Triangles(hung, np.r_[foot, [[0, 0, 1]]], np.array(faces))
 
 

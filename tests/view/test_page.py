@@ -65,7 +65,7 @@ def test_a_page_names_nothing_outside_itself(made):
     attributes = [value for _, a in Elements(made.html).found for value in a.items()]
     fetched = [v for name, v in attributes if name in {"src", "href", "srcset", "action", "data"}]
     assert fetched == ["data:,"]
-    policy = next(v for name, v in attributes if name == "content" and "default-src" in str(v))
+    policy = next(str(v) for name, v in attributes if name == "content" and "default-src" in str(v))
     assert "default-src 'none'" in policy
     assert "http" not in policy
 
@@ -100,7 +100,9 @@ def test_the_json_has_all_but_geometry_and_no_number_that_json_has_not(made):
 
 
 def test_nodes_that_move_and_look_alike_are_one_object():
-    boxes = [sliding_arm.box(Hung("meshes", "first", 1, name=n), [0, 0, 0], [1, 1, 1]) for n in "ab"]
+    boxes = [
+        sliding_arm.box(Hung("meshes", "first", 1, name=n), [0, 0, 0], [1, 1, 1]) for n in "ab"
+    ]
     other = sliding_arm.box(Hung("meshes", "first", 2), [0, 0, 0], [1, 1, 1])
     objects = k3d_objects.grouped([boxes[0], other, boxes[1]])
     assert [[n.hung.name for n in one.nodes] for one in objects] == [["a", "b"], [""]]
@@ -131,9 +133,7 @@ def test_without_k3d_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "k3d", None)
     with pytest.raises(MissingExtra) as caught:
         page(sliding_arm.scene())
-    assert str(caught.value) == (
-        "drawing a page needs the package k3d: pip install 'poekin[view]'"
-    )
+    assert str(caught.value) == ("drawing a page needs the package k3d: pip install 'poekin[view]'")
 
 
 def test_no_name_of_the_page_s_script_is_declared_twice():

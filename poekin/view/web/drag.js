@@ -40,7 +40,7 @@ function stateAt(tip, q, target) {
     const { T, J } = tip.fk_jacobian(q);
     const pointed = target.length === 3;
     const e = poseError(T, pointed ? withPosition(T, target) : target);
-    const rotation = pointed ? 0 : Math.hypot(e[0], e[1], e[2]);
+    const rotation = Math.hypot(e[0], e[1], e[2]);
     const position = Math.hypot(e[3], e[4], e[5]);
     const E = 0.5 * (rotation * rotation + position * position);
     return { q, J, e, E, first: pointed ? 3 : 0, error: { position, rotation } };

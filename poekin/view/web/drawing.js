@@ -10,6 +10,7 @@ const UNIT = Float64Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
 const THIN = 1e-4; // of the scene: an ellipsoid that is flat keeps a thickness, and its light
 const ARROW_V = 0.35; // length of an arrow of 1 m/rad, m, and of half an axis
 const ARROW_W = 0.2; // of the scene: length of an arrow of 1 rad/rad
+const CLEAR = 0.3; // opacity of meshes that are looked through
 
 // Lengths at which velocities are drawn: m per m/s at one rad/s or m/s, and per rad/s.
 export function arrowScales(scene) {
@@ -73,7 +74,7 @@ export function rulePose(node, tip, scene, scales) {
         case "ellipsoid_v":
             return thickened(ellipsoid(T, J, "translation", scales.v), THIN * scene.size, 0.5 * scene.size);
         case "ellipsoid_w":
-            return thickened(ellipsoid(T, J, "rotation", scales.w), THIN * scene.size, 0.5 * scene.size);
+            return thickened(ellipsoid(T, J, "rotation", 0.4 * scales.w), THIN * scene.size, 0.5 * scene.size);
         case "singular":
             return arrowMatrix(T, singularVector(J, tip, scene), 1.5 * scales.w);
         default:
@@ -133,6 +134,20 @@ export class Drawing {
             return UNIT;
         }
         return state.linkPose(node.arm, node.link, node.choice);
+    }
+
+    // Makes meshes such that what is inside them is seen, or as they were.
+    seeThrough(on) {
+        this.state.scene.objects.forEach((node, k) => {
+            if (node.layer === "meshes") {
+                const { material } = this.three[k];
+                material.opacity = on ? Math.min(CLEAR, node.opacity) : node.opacity;
+                material.transparent = material.opacity < 1;
+                material.depthWrite = !material.transparent;
+                material.needsUpdate = true;
+            }
+        });
+        this.K.render();
     }
 
     // A camera that sees all that is shown, from the front, a little from above.

@@ -205,6 +205,7 @@ async function open() {
     poekin.K = await window.poekinPlot;
     const drawing = new Drawing(poekin.K, poekin);
     const labels = new Labels(poekin.K, poekin, drawing);
+    Object.assign(poekin, { panel, drawing, labels });
     poekin.drag = (target) => drag(poekin, target);
     enablePlay(poekin, panel.place, document.getElementById("canvasTarget"));
     let waiting = false;

@@ -54,7 +54,7 @@ export function quaternionOf(T) {
         [h - f, c - g, d - b, squares[3]],
     ];
     const row = rows[squares.reduce((best, x, k) => (x > squares[best] ? k : best), 0)];
-    const length = Math.hypot(...row) * (row[3] < 0 ? -1 : 1);
+    const length = Math.sqrt(dot(row, row)) * (row[3] < 0 ? -1 : 1);
     return row.map((x) => x / length + 0);
 }
 
@@ -140,7 +140,7 @@ export function singularValues(J, first, last, length = 1) {
     const rows = [];
     const turns = [];
     for (let r = first; r < last; r++) {
-        rows.push(Array.from(J.subarray(r * m, r * m + m), (x) => (r < 3 ? x : x / length)));
+        rows.push(J.slice(r * m, r * m + m).map((x) => (r < 3 ? x : x / length)));
         turns.push(Array.from({ length: count }, (_, k) => (k === r - first ? 1 : 0)));
     }
     for (let sweep = 0; sweep < 20; sweep++) {
@@ -148,7 +148,7 @@ export function singularValues(J, first, last, length = 1) {
             break;
         }
     }
-    const sizes = rows.map((row) => Math.hypot(...row));
+    const sizes = rows.map((row) => Math.sqrt(dot(row, row)));
     const order = sizes.map((_, k) => k).sort((a, b) => sizes[b] - sizes[a]);
     return { s: order.map((k) => sizes[k]), U: order.map((k) => turns[k]) };
 }
@@ -168,7 +168,7 @@ function orthogonalize(rows, turns) {
                 continue;
             }
             const zeta = (beta - alpha) / (2 * gamma);
-            const t = (zeta < 0 ? -1 : 1) / (Math.abs(zeta) + Math.hypot(1, zeta));
+            const t = (zeta < 0 ? -1 : 1) / (Math.abs(zeta) + Math.sqrt(1 + zeta * zeta));
             const c = 1 / Math.sqrt(1 + t * t);
             rotateRows(rows, i, j, c, c * t);
             rotateRows(turns, i, j, c, c * t);
@@ -214,7 +214,7 @@ export function largestRank(jacobians, part) {
 // where that alone takes all coordinates.
 export function defaultPart(jacobians) {
     const m = jacobians[0].length / 6;
-    return m <= 3 && largestRank(jacobians, "translation") === m ? "translation" : "pose";
+    return largestRank(jacobians, "translation") === m ? "translation" : "pose";
 }
 
 // Yoshikawa's measure, condition number and smallest singular value of a part, by its `rank` largest
@@ -261,8 +261,8 @@ export function singularDirection(J, part, rank, length) {
     return { twist, smallest: s[worst], ratio: s[0] > 0 ? s[worst] / s[0] : 0 };
 }
 
-// The damped step (J^T J + damping I) dq = J^T e over the coordinates that are free, by rows first to
-// last of J; 0 for all others. H = L D L^T without square roots.
+// The damped step (J^T J + damping I) dq = J^T e over the coordinates that are free, by the rows of J
+// from the first on; 0 for all others. damping > 0. H = L D L^T without square roots.
 export function dampedStep(J, e, damping, free, first = 0) {
     const m = J.length / 6;
     const H = new Float64Array(m * m);
@@ -277,7 +277,7 @@ export function dampedStep(J, e, damping, free, first = 0) {
         for (let r = first; free[i] && r < 6; r++) {
             dq[i] += J[r * m + i] * e[r];
         }
-        H[i * m + i] += free[i] ? damping : 1;
+        H[i * m + i] += damping;
         largest = Math.max(largest, H[i * m + i]);
     }
     for (let i = 0; i < m; i++) {

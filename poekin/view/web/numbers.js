@@ -39,6 +39,17 @@ export function screwsOf(T, J) {
     });
 }
 
+// The motion of a unit twist (ω; v) in words: a translation where v / length is the larger part.
+export function directionWords(twist, length) {
+    const w = twist.slice(0, 3);
+    const v = twist.slice(3).map((x) => x / length);
+    const moves = Math.hypot(...v) >= Math.hypot(...w);
+    const part = moves ? v : w;
+    const size = Math.hypot(...part);
+    return `${moves ? "along" : "turning about"} (${part.map((x) => fixed(x / size, 2)).join(", ")})`;
+}
+
+const MEASURES = ["manipulability", "smallest singular value", "condition", "moves worst", "nearest limit"];
 const ROWS = ["ωx", "ωy", "ωz", "vx", "vy", "vz"];
 
 // Tables of the numbers, which are written again at each change where they can be seen.
@@ -61,10 +72,11 @@ export class Numbers {
             [...n.position, null], n.quaternion, [...n.rpy, null],
         ]);
         this.table("Matrix of the pose", false, ["", "x", "y", "z", "p (m)"], ["", "", ""], (n) => rowsOf(n.matrix.slice(0, 12), 4));
-        this.table("How well it moves", true, ["", ""], ["manipulability", "smallest singular value", "condition", "nearest limit"], (n) => {
+        this.table("How well it moves", true, ["", ""], MEASURES, (n) => {
             const { yoshikawa, smallest, condition } = n.manipulability;
             const least = Math.min(...n.limits);
-            return [[figures(yoshikawa, 4)], [figures(smallest, 4)], [figures(condition, 4)], [this.limit(least, n, names, arm)]];
+            const figured = [yoshikawa, smallest, condition].map((x) => [figures(x, 4)]);
+            return [...figured, [directionWords(n.singular.twist, poekin.scene.size)], [this.limit(least, n, names, arm)]];
         });
         this.table("Jacobian (ω; v) at the tip", false, ["", ...names], ROWS, (n) => rowsOf(n.J, m));
         this.table("Screw axes now", false, ["", "ωx", "ωy", "ωz", "vx", "vy", "vz", "pitch"], names, (n) =>

@@ -16,6 +16,7 @@ export class Panel {
         this.sliders = new Sliders(poekin);
         this.numbers = this.hasTip() ? new Numbers(poekin) : null;
         this.choices = [];
+        this.switches = {};
         this.place = element("div", { id: "poekin-play" }); // for the way along a path
         this.box = element("aside", { id: "poekin-panel", "aria-label": "Controls and numbers" },
             this.head(), ...this.parts());
@@ -64,11 +65,23 @@ export class Panel {
         const boxes = Object.keys(LAYERS).filter((layer) => nodes.some((node) => node.layer === layer)).map((layer) => {
             const input = element("input", { type: "checkbox", checked: shown.has(layer), "data-layer": layer });
             input.addEventListener("change", () => this.poekin.show(layer, input.checked));
+            this.switches[layer] = input;
             const color = nodes.find((node) => node.layer === layer).color;
             const swatch = element("span", { class: "swatch", style: `--color: ${color}` });
             return element("label", { class: "layer" }, input, swatch, element("span", { text: LAYERS[layer] }));
         });
-        return element("div", { class: "layers" }, ...boxes);
+        return element("div", { class: "layers" }, ...boxes, ...this.clearSwitch());
+    }
+
+    // The switch that lets a reader look into meshes.
+    clearSwitch() {
+        if (this.switches.meshes === undefined) {
+            return [];
+        }
+        const input = element("input", { type: "checkbox" });
+        input.addEventListener("change", () => this.poekin.drawing.seeThrough(input.checked));
+        const swatch = element("span", { class: "swatch clear" });
+        return [element("label", { class: "layer" }, input, swatch, element("span", { text: "See through" }))];
     }
 
     choiceList() {
@@ -93,6 +106,9 @@ export class Panel {
     // Shows what the reader has moved, switched or chosen.
     update() {
         this.sliders.update();
+        for (const [layer, input] of Object.entries(this.switches)) {
+            input.checked = this.poekin.shown.has(layer);
+        }
         this.choices.forEach((choice, k) => choice.setAttribute("aria-pressed", String(k === this.poekin.choice)));
         if (this.numbers !== null) {
             this.numbers.update();

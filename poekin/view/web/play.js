@@ -1,4 +1,4 @@
-// A path that plays, and the factor by which differences are enlarged.
+// A path that plays, the factor by which differences are enlarged, and how the tool is dragged.
 //
 // Each class builds its part of the panel, `box`, from the scene; a page has those it has data for.
 import { button, element, fixed, section } from "./elements.js";
@@ -26,7 +26,20 @@ export function enablePlay(poekin, place, canvas) {
         place.append(exaggeration.box);
         canvas.append(exaggeration.badge);
     }
+    if (scene.arms.length > 0 && scene.arms[0].tips.length > 0) {
+        place.append(dragWords(poekin));
+    }
     poekin.on("change", () => leaveChoice(poekin));
+}
+
+// How to drag the tool, and the switch `poekin.freeOrientation`.
+function dragWords(poekin) {
+    const input = element("input", { type: "checkbox" });
+    input.addEventListener("change", () => {
+        poekin.freeOrientation = input.checked;
+    });
+    const label = element("label", { class: "layer" }, input, element("span", { text: "Leave its rotation free (or hold Shift)" }));
+    return section("Drag the tool", true, element("p", { class: "now", text: "Pull the end of the tool in the picture." }), label);
 }
 
 // Plays `scene.motion`. A reader who moves a slider stops it; the space bar starts and stops it.
@@ -162,7 +175,7 @@ export class Player {
         this.line.value = this.time;
         this.clock.textContent = `${fixed(this.time, 2)} of ${fixed(this.last, 2)} s`;
         const here = marks.filter(({ first, last }) => times[first] <= this.time && this.time <= times[last]);
-        const words = here.map(({ kind, text }) => `${MARK_WORDS[kind]}: ${text}`).join("; ");
+        const words = here.map(({ text }) => text).join(" ");
         if (this.now.textContent !== words) {
             this.now.textContent = words;
         }

@@ -44,7 +44,7 @@ def chromium() -> Iterator[Any]:
 class Opened:
     """A page in the browser, and what it wrote to its console as an error."""
 
-    def __init__(self, browser: Any, file: Path) -> None:
+    def __init__(self, browser: Any, file: Path, framed: bool) -> None:
         self.faults: list[str] = []
         self.context = browser.new_context(offline=True, has_touch=True)
         self.tab = self.context.new_page()
@@ -54,7 +54,12 @@ class Opened:
         self.tab.on("pageerror", lambda fault: self.faults.append(str(fault)))
         self.tab.on("requestfailed", lambda asked: self.faults.append(asked.url))
         self.tab.goto(file.as_uri())
-        self.tab.wait_for_function("window.poekin !== undefined")
+        self.frame = self.tab.frames[-1] if framed else self.tab
+        self.wait()
+
+    def wait(self) -> None:
+        """Wait until the page has opened."""
+        self.frame.wait_for_function("window.poekin !== undefined")
         self.ask(READY)
         self.settle()
 
@@ -64,7 +69,7 @@ class Opened:
 
     def ask(self, script: str, given: Any = None) -> Any:
         """Value of JavaScript in the page; of a function, of what is given."""
-        return self.tab.evaluate(script, given)
+        return self.frame.evaluate(script, given)
 
     def look(self, width: int = 1280, dark: bool = False) -> None:
         """Make the window so wide, px, and light or dark."""
@@ -97,9 +102,9 @@ def open_page(chromium: Any, tmp_path_factory: Any) -> Iterator[Any]:
     """Function that opens a page for the tests of a file."""
     opened: list[Opened] = []
 
-    def open_(made: Page) -> Opened:
+    def open_(made: Page, framed: bool = False) -> Opened:
         file = made.save(tmp_path_factory.mktemp("page") / "page.html")
-        opened.append(Opened(chromium, file))
+        opened.append(Opened(chromium, file, framed))
         return opened[-1]
 
     yield open_

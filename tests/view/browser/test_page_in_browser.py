@@ -11,7 +11,7 @@ import pytest
 
 import poekin as pk
 from poekin.view.nodes import Hung, Label
-from poekin.view.page import page
+from poekin.view.page import Page, page
 from poekin.view.scene import SceneArm
 from tests.view import sliding_arm
 from tests.view.sliding_arm import Q, jacobian, poses
@@ -60,7 +60,11 @@ def test_poses_and_jacobians_of_200_configurations_are_those_of_numpy(arm):
     script = """(rows) => rows.map((q) => { poekin.set(q); const n = poekin.numbers();
         return [...poekin.links(0), ...n.matrix, ...n.J, ...n.position]; })"""
     found = np.array(arm.ask(script, q.tolist()))
-    true = [np.r_[p.ravel(), p[3].ravel(), jacobian(x).ravel(), p[3, :3, 3]] for x in q for p in [poses(x)]]
+    true = [
+        np.r_[p.ravel(), p[3].ravel(), jacobian(x).ravel(), p[3, :3, 3]]
+        for x in q
+        for p in [poses(x)]
+    ]
     assert np.abs(found - true).max() <= TIGHT
 
 
@@ -208,8 +212,7 @@ def test_a_link_holds_the_configuration_and_the_tip(arm):
     arm.ask("poekin.select(0)")
     arm.tab.goto("about:blank")
     arm.tab.goto(address)
-    arm.tab.wait_for_function("window.poekin !== undefined")
-    arm.ask("poekin.ready.then(() => true)")
+    arm.wait()
     assert arm.ask("[...poekin.q]") == [0.123456789, -2.0, 0.05]
     assert arm.ask("poekin.selectedTip") == 1
     arm.ask("() => { location.hash = '#q=1,2&tip=9'; }")
@@ -223,6 +226,16 @@ def test_names_out_of_files_are_words_in_the_page(open_page):
     assert opened.ask("document.title") == EVIL
     assert opened.ask('document.querySelector("h1").textContent') == EVIL
     assert opened.ask('document.querySelectorAll("img").length') == 0
+
+
+def test_a_page_in_a_notebook_s_frame_moves_too(open_page):
+    made = page(sliding_arm.scene())
+    notebook = Page("notebook", f"<!doctype html><title>notebook</title>{made._repr_html_()}")
+    opened = open_page(notebook, framed=True)
+    opened.move([0.2, 0.3, 0.1])
+    assert opened.ask("poekin.numbers().position[2]") == pytest.approx(0.2, rel=1e-15)
+    opened.tab.frame_locator("iframe").get_by_role("button", name="Copy a link").click()
+    opened.settle()
 
 
 def second_arm() -> SceneArm:
@@ -281,7 +294,8 @@ def test_nothing_is_cut_off_and_nothing_overlaps(arm, width):
     assert canvas["bottom"] - canvas["top"] >= 300
     inside = "#poekin-panel :is(h1, p, summary, label, input, button, select, .unit, .wide)"
     for box in arm.boxes(inside):
-        assert panel["left"] <= box["left"] and box["right"] <= panel["right"] + 0.5
+        assert panel["left"] <= box["left"]
+        assert box["right"] <= panel["right"] + 0.5
     for group in (".slider > *", "#poekin-toolbar > *", ".layer", ".choice", ".label", "summary"):
         boxes = arm.boxes(group)
         assert boxes

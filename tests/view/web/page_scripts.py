@@ -36,10 +36,13 @@ def run(folder: Path, script: str, given: Any) -> Any:
 
 def sliders(chain: pk.Chain) -> list[dict[str, Any]]:
     """Coordinates of a chain as a scene has them."""
-    limits = np.where(np.isfinite(chain.limits), chain.limits, None).tolist()
     return [
-        {"unit": "rad" if chain.is_angle(k) else "m", "lower": lower, "upper": upper}
-        for k, (lower, upper) in enumerate(limits)
+        {
+            "unit": "rad" if chain.is_angle(k) else "m",
+            "lower": lower if np.isfinite(lower) else None,
+            "upper": upper if np.isfinite(upper) else None,
+        }
+        for k, (lower, upper) in enumerate(chain.limits.tolist())
     ]
 
 

@@ -107,7 +107,10 @@ def test_a_pose_out_of_reach_is_said_to_be_and_the_nearest_is_kept(name, tmp_pat
     script = """
     const found = reach(tip, given.q0, given.T, moved, given.sliders, given.size);
     print([found, follow(tip, given.q0, given.T, moved, limits)]);"""
-    for found in ask(tmp_path, chain, script, T=far[0].ravel(), q0=q0):
+    both = ask(tmp_path, chain, script, T=far[0].ravel(), q0=q0)
+    sizes = [np.hypot(*one["error"].values()) for one in both]
+    assert sizes[0] <= sizes[1]
+    for found in both:
         assert not found["reached"]
         assert is_within_limits(chain, found["q"])
         away, turned = errors(chain, [found["q"]], far)[0]
@@ -149,21 +152,65 @@ def test_a_coordinate_stays_at_its_limit_while_the_others_go_on(tmp_path):
     assert errors(chain, [found["q"]], target).max() <= REACHED
 
 
+def test_a_step_never_makes_the_error_larger_and_ends_where_none_makes_it_smaller(tmp_path):
+    chain = arm("ur5e").replace(limits=[[-0.5, 0.5]] * 6)
+    q = chain.random(35, 40)
+    T = chain.fk(arm("ur5e").random(36, 40))  # hardly one within these limits
+    script = """
+    const ways = given.T.map((T, k) => [1, 2, 4, 8, 400].map((steps) =>
+        solve(tip, given.q[k], T, moved, { ...limits, steps })));
+    print(ways.map((way) => way.map(({ q, error }) => {
+        const { J } = tip.fk_jacobian(q);
+        return { q, error, J, e: page.poseError(tip.fk_jacobian(q).T, given.T[ways.indexOf(way)]) };
+    })));"""
+    for way in ask(tmp_path, chain, script, T=T.reshape(40, 16), q=q):
+        sizes = [np.hypot(*one["error"].values()) for one in way]
+        assert (np.diff(sizes) <= 1e-12).all()
+        end = np.array(way[-1]["q"])
+        slope = np.reshape(way[-1]["J"], (6, 6)).T @ way[-1]["e"]
+        outward = (np.abs(end) >= 0.5) & (slope * end > 0)
+        # the error changes by slope² near a least one: 1e-12 of itself
+        assert np.abs(slope[~outward]).max(initial=0) <= 1e-6 * sizes[-1]
+
+
+def test_a_long_way_ends_where_its_small_steps_lead(tmp_path):
+    chain = arm("ur5e")
+    starts = 0.7 * chain.random(38, 60)
+    targets = chain.fk(chain.random(39, 60))
+    script = """
+    const dense = (q, T) => {
+        let found = { q, reached: true };
+        for (let k = 1; k <= 300 && found.reached; k++) {
+            const pose = page.between(tip.fk_jacobian(q).T, T, k / 300);
+            found = solve(tip, found.q, pose, moved, limits);
+        }
+        return found;
+    };
+    print(given.T.map((T, k) => [dense(given.q[k], T), follow(tip, given.q[k], T, moved, limits)]));"""
+    found = ask(tmp_path, chain, script, T=targets.reshape(60, 16), q=starts)
+    ends = [(dense["q"], way["q"]) for dense, way in found if dense["reached"]]
+    assert len(ends) >= 15  # the others leave the workspace on the way
+    same = [np.abs(np.subtract(*pair)).max() <= 1e-3 for pair in ends]
+    # beside a singularity a step of 0.15 rad takes the other branch at times
+    assert np.mean(same) >= 0.8
+
+
 def test_coordinates_that_do_not_move_the_tip_stay(tmp_path):
     chain = arm("ur5e")
-    q = chain.random(33)
-    target = chain.fk(q)
+    targets = chain.fk(chain.random(33, 30))
     script = """
     const branch = { fk_jacobian: (q) => fk_jacobian_hybrid([q[2], q[4], q[1], q[7], q[6], q[5]]) };
-    const free = { unit: "rad", lower: null, upper: null };
-    const all = Array(8).fill(free);
-    const q = Array(8).fill(0.3);
-    print(reach(branch, q, given.T, [2, 4, 1, 7, 6, 5], all, 1));"""
-    found = ask(tmp_path, chain, script, T=target.ravel())
-    assert found["reached"]
-    assert [found["q"][k] for k in (0, 3)] == [0.3, 0.3]
-    own = [found["q"][k] for k in (2, 4, 1, 7, 6, 5)]
-    assert errors(chain, [own], target[None]).max() <= REACHED
+    const places = [2, 4, 1, 7, 6, 5];
+    const all = Array(8).fill({ unit: "rad", lower: null, upper: null });
+    places.forEach((place, k) => { all[place] = given.sliders[k]; });
+    print(given.T.map((T) => reach(branch, Array(8).fill(0.3), T, places, all, 1)));"""
+    found = ask(tmp_path, chain, script, T=targets.reshape(30, 16))
+    assert all(one["reached"] for one in found)
+    q = np.array([one["q"] for one in found])
+    assert (q[:, [0, 3]] == 0.3).all()
+    own = q[:, [2, 4, 1, 7, 6, 5]]
+    assert is_within_limits(chain, own)
+    assert errors(chain, own, targets).max() <= REACHED
 
 
 def test_dragging_moves_the_page_to_what_was_found(tmp_path):

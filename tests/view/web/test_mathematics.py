@@ -287,6 +287,16 @@ def test_a_damped_step_solves_its_equations_and_leaves_what_is_not_free(tmp_path
             assert (dq[~free[k]] == 0).all()
 
 
+def test_a_step_of_more_joints_than_the_task_needs_goes_the_whole_way(tmp_path):
+    J = np.random.default_rng(21).normal(size=(20, 6, 9))
+    J[:, :, 8] = J[:, :, 7]
+    script = """print(given.map((J) =>
+        page.dampedStep(Float64Array.from(J), [1, 2, 3, 4, 5, 6], 1e-30, Array(9).fill(true))));"""
+    dq = np.array(run(tmp_path, script, J.reshape(20, -1)))
+    # the regularisation of 1e-14 shows as much as the squared condition, below 1e4 here
+    np.testing.assert_allclose(np.einsum("kij,kj->ki", J, dq) - np.arange(1, 7), 0, atol=1e-8)
+
+
 def test_ranges_and_distances_are_those_of_the_limits(tmp_path):
     chain = arm("mixed").replace(
         limits=[[-1, 2], [-np.inf, np.inf], [-np.inf, 1], [0.5, np.inf], [-0.1, 0.3]]
