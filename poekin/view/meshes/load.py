@@ -19,10 +19,11 @@ import numpy as np
 
 from ...errors import FileError, MissingExtra, PoekinError, escape_unprintable
 from ...formats.text import xml
-from ...model.checks import LONGEST
 from . import refuse
 
 ENDINGS = {".stl": "stl", ".obj": "obj", ".dae": "dae", ".glb": "glb", ".ply": "ply"}
+FARTHEST = 1e9
+"""Largest coordinate of a vertex [m]."""
 _LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+(.+?)[ \t]*\r?$", re.MULTILINE)
 # what trimesh and pycollada raise of files that they do not understand
 _FAULTS = (
@@ -101,8 +102,8 @@ def _piece(scene: Any, name: str) -> list[tuple[np.ndarray, np.ndarray, int | No
     unit = str(geometry.metadata.get("units") or "meters").partition(" * ")
     if unit[2]:
         vertices *= float(unit[0])
-    if not np.all(np.abs(vertices) <= LONGEST):
-        raise ValueError(f"expected finite vertices within {LONGEST:g} m")
+    if not np.all(np.abs(vertices) <= FARTHEST):
+        raise ValueError(f"expected finite vertices within {FARTHEST:g} m")
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise ValueError("a face has a vertex that does not exist")
     return [(vertices, faces, _color(geometry.visual))]
