@@ -1,6 +1,7 @@
 """Mesh files as parts of one colour each, by trimesh (extra `view`): the only file that imports it.
 
-- DAE: its <unit> counts, its <up_axis> does not, which is how RViz draws it.
+- DAE: its <unit> counts, as in RViz; its <up_axis> does not, as in RViz and Pinocchio: real files
+  hang right so, but for those of a few robots, the iCub of example-robot-data among them.
 - OBJ: the colours of its .mtl beside it; no texture is opened.
 - GLB: only what is in the file itself.
 """

@@ -63,6 +63,18 @@ def test_each_format_has_the_tetrahedron_in_metres_and_its_colour(content, name,
     assert part.color == color
 
 
+@pytest.mark.parametrize("asset", ["", "<up_axis>Y_UP</up_axis>", '<unit name="meter" meter="1"/>'])
+@pytest.mark.parametrize("moved", ["", "<rotate>1 0 0 90</rotate>", "<scale>1 2 3</scale>"])
+def test_a_dae_has_the_vertices_that_pinocchio_s_reader_gives_it(asset, moved, tmp_path):
+    coal = pytest.importorskip("coal", reason="the package pin is not installed")
+    content = dae(f'<translate>1 2 3</translate>{moved}<instance_geometry url="#g"/>', asset=asset)
+    (tmp_path / "m.dae").write_bytes(content)
+    theirs = coal.MeshLoader().load(str(tmp_path / "m.dae"), np.ones(3)).vertices()
+    (part,) = load.load(content, "m.dae")
+    places = sorted(map(tuple, np.unique(theirs.round(6), axis=0).tolist()))
+    assert np.allclose(sorted(map(tuple, part.vertices.tolist())), places, atol=2e-6)
+
+
 def test_a_dae_whose_texture_is_not_there_is_drawn_still():
     lost = RED.replace("<color>1 0 0 1</color>", '<texture texture="gone" texcoord="UV"/>')
     (part,) = load.load(dae(BOUND, library=lost, bound='material="m"'), "m.dae")
