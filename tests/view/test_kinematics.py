@@ -197,7 +197,7 @@ def test_no_name_comes_into_the_text():
 
 def test_a_tip_stands_for_all_that_are_fixed_to_its_body():
     assert default_tips(load("ur5e")) == ("tool0",)
-    assert default_tips(load("panda")) == ("panda_leftfinger", "panda_rightfinger")
+    assert default_tips(load("panda")) == ("panda_hand", "panda_leftfinger", "panda_rightfinger")
     still = pk.Robot(
         "still",
         ["a", "b", "c"],
@@ -225,7 +225,7 @@ def test_tips_that_are_asked_for_come_first_and_once():
     names = [
         tip.name for tip in page_tips(robot, ["panda_link3", "panda_rightfinger", "panda_link3"])
     ]
-    assert names == ["panda_link3", "panda_rightfinger", "panda_leftfinger"]
+    assert names == ["panda_link3", "panda_rightfinger", "panda_hand", "panda_leftfinger"]
     with pytest.raises(UnknownName, match="no tip link 'elbow'"):
         page_tips(robot, ["elbow"])
 
