@@ -139,13 +139,18 @@ def members(owner: type) -> Iterator[tuple[str, object]]:
 
 
 def resolved(dotted: str) -> object:
-    """What a full name stands for: the longest part of it that is a module, then attributes."""
+    """What a full name stands for: the longest part of it that is a module, then attributes; of a
+    module that shares its name with a function beside it, as `poekin.view`, the function.
+    """
     parts = dotted.split(".")
     for length in range(len(parts), 0, -1):
         try:
             found: object = importlib.import_module(".".join(parts[:length]))
         except ModuleNotFoundError:
             continue
+        if 1 < length == len(parts):
+            above = importlib.import_module(".".join(parts[:-1]))
+            return getattr(above, parts[-1], found)
         for name in parts[length:]:
             found = getattr(found, name)
         return found
