@@ -180,7 +180,7 @@ export class Drawing {
         return box;
     }
 
-    // The floor: lines 1 : 10 of the scene apart, at z = 0 or below what reaches under it.
+    // The floor: lines a round length apart, at z = 0 or below what reaches under it.
     setTheme(dark) {
         const { THREE } = this.K.Provider;
         const world = this.K.getWorld();
@@ -188,7 +188,7 @@ export class Drawing {
         if (this.ground !== null) {
             world.scene.remove(this.ground);
         }
-        const step = 10 ** Math.round(Math.log10(this.state.scene.size / 6));
+        const step = roundLength(this.state.scene.size / 8);
         const count = 2 * Math.ceil((1.25 * this.state.scene.size) / step);
         const color = dark ? 0x353b43 : 0xd3d9df;
         this.ground = new THREE.GridHelper(count * step, count, color, color);
@@ -199,6 +199,12 @@ export class Drawing {
         world.scene.add(this.ground);
         this.K.render();
     }
+}
+
+// The largest of 1, 2, 5, times a power of ten, that is not above x.
+export function roundLength(x) {
+    const power = 10 ** Math.floor(Math.log10(x));
+    return ([5, 2].find((k) => k * power <= x) ?? 1) * power;
 }
 
 function setMatrix(object, M) {

@@ -27,7 +27,7 @@ export function enablePlay(poekin, place, canvas) {
         canvas.append(exaggeration.badge);
     }
     if (scene.arms.length > 0 && scene.arms[0].tips.length > 0) {
-        place.append(dragWords(poekin));
+        (place.nextElementSibling ?? place).after(dragWords(poekin)); // below the sliders
     }
     poekin.on("change", () => leaveChoice(poekin));
 }
