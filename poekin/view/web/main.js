@@ -138,7 +138,8 @@ export function fromHash(hash, count) {
 
 export function toHash({ q, selectedTip }) {
     const tip = selectedTip > 0 ? `&tip=${selectedTip}` : "";
-    return `#q=${Array.from(q).join(",")}${tip}`;
+    const words = Array.from(q).join(",").replaceAll("+", ""); // a link reads 1e+9 as 1e 9
+    return `#q=${words}${tip}`;
 }
 
 function readHash(poekin) {
