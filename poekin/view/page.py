@@ -16,14 +16,14 @@ from .scene_json import scene_json
 
 SCRIPTS = (
     "mathematics",
-    "elements",
+    "panel/elements",
     "labels",
     "drawing",
-    "sliders",
-    "numbers",
-    "panel",
+    "panel/sliders",
+    "panel/numbers",
+    "panel/panel",
     "drag",
-    "play",
+    "panel/play",
     "main",
 )
 """Files of the page's own JavaScript, in the order in which the page holds them."""

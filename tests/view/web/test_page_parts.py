@@ -59,7 +59,7 @@ def test_numbers_are_words_without_a_negative_zero(tmp_path):
     script = """const { fixed, figures } = words;
         print([fixed(-1e-9, 4), fixed(-1.5, 2), fixed(NaN, 2), fixed(-Infinity, 2),
                figures(0, 4), figures(0.012345, 3), figures(-1.5e-7, 3), figures(123456, 3)]);"""
-    found = ask(tmp_path, 'import * as words from "./elements.js";', script)
+    found = ask(tmp_path, 'import * as words from "./panel/elements.js";', script)
     assert found == ["0.0000", "−1.50", "–", "−∞", "0", "0.0123", "−1.50e−7", "1.23e+5"]
 
 
@@ -90,7 +90,7 @@ def test_screws_are_read_off_the_jacobian(tmp_path):
     q = chain.random(11, 5)
     script = "print(given.T.map((T, k) => screwsOf(T, Float64Array.from(given.J[k]))));"
     given = {"T": chain.fk(q).reshape(5, 16), "J": chain.jacobian(q, "hybrid").reshape(5, 36)}
-    found = ask(tmp_path, 'import { screwsOf } from "./numbers.js";', script, **given)
+    found = ask(tmp_path, 'import { screwsOf } from "./panel/numbers.js";', script, **given)
     for screws, A in zip(found, chain.jacobian(q, "space"), strict=True):
         got = np.array([[*screw["w"], *screw["v"]] for screw in screws]).T
         assert np.abs(got - A).max() <= 30 * u

@@ -2,7 +2,7 @@
 //
 // Each class builds its part of the panel, `box`, from the scene; a page has those it has data for.
 import { button, element, fixed, section } from "./elements.js";
-import { alongPath } from "./mathematics.js";
+import { alongPath } from "../mathematics.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5];
 const MARK_WORDS = {
