@@ -35,7 +35,7 @@ def page_tips(model: Model, names: Iterable[str] = ()) -> tuple[SceneTip, ...]:
     """
     if isinstance(model, Chain):
         return (SceneTip(model.tip, len(model.kinds), tuple(range(model.dof))),)
-    held = _held(model)
+    held = fix_free_joints(model)
     return tuple(
         SceneTip(name, model.links.index(name), tuple(map(model.q_names.index, chain.q_names)))
         for name in dict.fromkeys((*names, *default_tips(model)))
@@ -44,24 +44,30 @@ def page_tips(model: Model, names: Iterable[str] = ()) -> tuple[SceneTip, ...]:
 
 
 def default_tips(robot: Robot) -> tuple[str, ...]:
-    """Leaves whose Jacobian a page shows, at most `MOST_TIPS`.
+    """Links whose Jacobian a page shows, at most `MOST_TIPS`.
 
-    Of leaves that the same joint moves, the one below most joints stands for all. Each next leaf is
-    the one that most coordinates move which move no leaf before it, of several the one that most
-    coordinates move. Leaves that no joint moves are left out, unless there are no others.
+    First the last link that carries all leaves, where something moves it: what a gripper's fingers
+    are on. Then leaves; of those that the same joint moves, the one below most joints stands for
+    all. Each next leaf is the one that most coordinates move which move no tip before it, of
+    several the one that most coordinates move. Leaves that no joint moves are left out, unless
+    there are no others.
     """
-    held = _held(robot)
+    held = fix_free_joints(robot)
     above = {joint.child: joint.parent for joint in robot.joints}
     last: dict[str, Chain] = {}
     for leaf in robot.leaves:
         chain = held.chain(tip=leaf)
         moved_by = chain.joint_names[-1] if chain.joint_names else ""
         other = last.setdefault(moved_by, chain)
-        if _depth(leaf, above) > _depth(other.tip, above):
+        if len(_way(leaf, above)) > len(_way(other.tip, above)):
             last[moved_by] = chain
     left = [chain for moved_by, chain in last.items() if moved_by or len(last) == 1]
     chosen: list[str] = []
     moving: set[str] = set()
+    carrier = held.chain(tip=_carrier([chain.tip for chain in left], above))
+    if len(left) > 1 and carrier.dof:
+        chosen.append(carrier.tip)
+        moving.update(carrier.q_names)
     while left and len(chosen) < MOST_TIPS:
         best = max(left, key=lambda chain: (len({*chain.q_names} - moving), chain.dof))
         left.remove(best)
@@ -70,13 +76,19 @@ def default_tips(robot: Robot) -> tuple[str, ...]:
     return tuple(chosen)
 
 
-def _depth(link: str, above: dict[str, str]) -> int:
-    """Number of joints above a link."""
-    depth = 0
-    while link in above:
-        link = above[link]
-        depth += 1
-    return depth
+def _carrier(links: Iterable[str], above: dict[str, str]) -> str:
+    """The last link on the ways from the root to all of these."""
+    ways = [_way(link, above) for link in links]
+    shared = set(ways[0]).intersection(*ways)
+    return max(shared, key=lambda link: len(_way(link, above)))
+
+
+def _way(link: str, above: dict[str, str]) -> list[str]:
+    """A link, and all that it hangs on."""
+    way = [link]
+    while way[-1] in above:
+        way.append(above[way[-1]])
+    return way
 
 
 def kinematics(model: Model, tips: Iterable[SceneTip]) -> str:
@@ -94,7 +106,7 @@ def kinematics(model: Model, tips: Iterable[SceneTip]) -> str:
         chains = [model] * len(tips)
     else:
         links = links_task(model)
-        held = _held(model)
+        held = fix_free_joints(model)
         chains = [held.chain(tip=tip.name) for tip in tips]
     tasks = [
         EmittedFunction(f"tip{k}", 1, True, chain.compile().program("hybrid", pose=True))
@@ -113,7 +125,7 @@ def _tips(tips: Iterable[SceneTip]) -> str:
     return "\n".join(["export const tips = [", *lines, "];", ""])
 
 
-def _held(robot: Robot) -> Robot:
+def fix_free_joints(robot: Robot) -> Robot:
     """The robot with its floating and planar joints fixed at their zero pose, so that chains cross
     them.
     """

@@ -122,7 +122,7 @@ def test_so_are_those_of_built_in_arms_mimics_and_readings(pages):
     robots.append(
         load("puma560").coupled(["joint3 = joint2 + joint3", "joint6 = 2 joint6 - 1/80 joint5"])
     )
-    robots += [two_arms(), two_arms().coupled("r = r - 0.5 h")]
+    robots += [two_arms(), two_arms().coupled("r = r - 0.5 h"), pk.Robot("one", ["a"], [])]
     for robot in robots:
         pages.add_robot(robot, rng.uniform(-3, 3, (5, robot.dof)), [robot.root])
     assert max(pages.worst()) <= 1
@@ -197,7 +197,7 @@ def test_no_name_comes_into_the_text():
 
 def test_a_tip_stands_for_all_that_are_fixed_to_its_body():
     assert default_tips(load("ur5e")) == ("tool0",)
-    assert default_tips(load("panda")) == ("panda_leftfinger", "panda_rightfinger")
+    assert default_tips(load("panda")) == ("panda_hand", "panda_leftfinger", "panda_rightfinger")
     still = pk.Robot(
         "still",
         ["a", "b", "c"],
@@ -225,7 +225,7 @@ def test_tips_that_are_asked_for_come_first_and_once():
     names = [
         tip.name for tip in page_tips(robot, ["panda_link3", "panda_rightfinger", "panda_link3"])
     ]
-    assert names == ["panda_link3", "panda_rightfinger", "panda_leftfinger"]
+    assert names == ["panda_link3", "panda_rightfinger", "panda_hand", "panda_leftfinger"]
     with pytest.raises(UnknownName, match="no tip link 'elbow'"):
         page_tips(robot, ["elbow"])
 

@@ -1,4 +1,4 @@
-"""Robots out of MJCF: MuJoCo reads the file, and only the kinematics is taken over, without meshes.
+"""Robots out of MJCF: MuJoCo reads the file, and the kinematics is taken over; no mesh is opened.
 
 Defaults, classes, angles in degrees, autolimits, `<frame>`, `<replicate>` and `<include>` are
 resolved by MuJoCo. What has no part in kinematics (meshes, textures, actuators, sensors, tendons,

@@ -43,18 +43,22 @@ class MeshFinder:
         word = scheme[1].lower() if scheme else "file"
         path = name[scheme.end() :] if scheme else name
         path = path.replace("\\", "/")
+        package = ""
         if word in _OF_PACKAGES:
             package, _, inside = path.lstrip("/").partition("/")
             candidates = self._in_package(package, inside)
-            where = f"no package {quote(package)} near the model or in {packages.places()} has it"
         elif word == "file":
             candidates = self._by_path(path)
-            where = "there is no such file"
         else:
             raise FileError("only files are read, nothing over a network")
         for candidate in candidates:
             if os.path.isfile(candidate):
                 return candidate
+        if word == "file":
+            raise FileError("there is no such file")
+        where = f"no package {quote(package)} near the model or in {packages.places()} has it"
+        if package == erd.PACKAGE and erd_folder() is None:
+            where += ": pip install 'poekin[robots]' brings it"
         raise FileError(where)
 
     def _in_package(self, package: str, inside: str) -> Iterator[str]:
@@ -81,7 +85,7 @@ class MeshFinder:
             found = [packages.find_near(package, self.model)]
             with contextlib.suppress(FileError):  # of too many folders to look into
                 found.append(packages.find(package))
-            if package == erd.PACKAGE:
+            if package == erd.PACKAGE and not any(found):
                 found.append(erd_folder())
             self._folders[package] = [folder for folder in found if folder]
         return self._folders[package]

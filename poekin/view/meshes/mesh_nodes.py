@@ -14,7 +14,7 @@ from .. import shapes
 from ..nodes import Hung, Role, Triangles
 from .find import MeshFinder
 from .kept import parts_of
-from .load import MeshPart, joined, merged
+from .load import FARTHEST, MeshPart, joined, merged
 from .reduce import limit_for, reduced
 
 BUDGET = 400_000
@@ -55,7 +55,10 @@ def mesh_nodes(robot: Robot, arm: int = 0) -> tuple[tuple[Triangles, ...], tuple
     drawn: list[tuple[Visual, tuple[MeshPart, ...]]] = []
     for visual in found:
         try:
-            drawn.append((visual, reader.parts(visual)))
+            parts = reader.parts(visual)
+            if _farthest(visual, parts) > FARTHEST:
+                raise FileError(f"expected it within {FARTHEST:g} m of its link")
+            drawn.append((visual, parts))
         except FileError as fault:
             what = quote(visual.file or visual.shape, 200)
             missing.append(LeftOut(visual.link, visual.place, what, str(fault)))
@@ -149,6 +152,14 @@ def _placed(
 def _largest(visual: Visual) -> float:
     """Largest factor by which a shape's lengths are drawn."""
     return max(map(abs, visual.size)) if visual.shape == "mesh" else 1.0
+
+
+def _farthest(visual: Visual, parts: tuple[MeshPart, ...]) -> float:
+    """Bound on the coordinates of a shape in its link's frame."""
+    farthest = max(float(np.abs(part.vertices).max(initial=0.0)) for part in parts)
+    if visual.T_mesh is not None:
+        farthest += float(np.abs(visual.T_mesh[:3, 3]).max())
+    return farthest * _largest(visual) + float(np.abs(visual.T_link_visual[:3, 3]).max())
 
 
 def _rgb(color: tuple[float, ...]) -> int:

@@ -150,7 +150,7 @@ def arm_nodes(arm: ArmGeometry, q: Array, size: float, covered: bool = False) ->
         *skeleton_nodes(arm, radii, size),
         *axis_nodes(arm, radii, size, covered),
         *label_nodes(arm, radii),
-        *frame_nodes(arm, size, covered),
+        *frame_nodes(arm, radii, size, covered),
     ]
 
 
@@ -194,7 +194,12 @@ def _chains(model: Model, tips: Iterable[SceneTip]) -> list[Chain]:
 
 def _model_words(model: Model, arm: ArmGeometry) -> list[str]:
     """Sentences on what the model is."""
-    words = [f"{len(arm.joints)} joints that move, {len(arm.sliders)} coordinates."]
+    joints = len(arm.joints)
+    coordinates = len(arm.sliders)
+    words = [
+        f"{joints} moving joint{'s' * (joints != 1)}, "
+        f"{coordinates} coordinate{'s' * (coordinates != 1)}."
+    ]
     if isinstance(model, Robot):
         free = [joint.name for joint in model.joints if joint.kind in FREE]
         if free:

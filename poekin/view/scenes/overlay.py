@@ -86,7 +86,9 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
         joints.append(moved)
     last = len(geometry.joints)
     frames = [
-        replace(frame, link=bodies[-1 if frame.link == last and frame.kind == "end" else frame.link])
+        replace(
+            frame, link=bodies[-1 if frame.link == last and frame.kind == "end" else frame.link]
+        )
         for frame in geometry.frames
     ]
     names = [""] * (bodies[-1] + 1)

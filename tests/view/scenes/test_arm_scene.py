@@ -58,6 +58,7 @@ def of_kind(scene_nodes: tuple[Node, ...] | list[Node], kind: type, layer: str) 
 
 def in_the_world(arm: ArmGeometry, q: np.ndarray, node: Node) -> np.ndarray:
     """Points of a node where the page draws them at q."""
+    assert isinstance(node, Triangles | Polyline)
     points = node.vertices if isinstance(node, Triangles) else node.points
     T = arm.poses(q)[node.hung.link]
     return points @ T[:3, :3].T + T[:3, 3]
@@ -200,6 +201,21 @@ def test_the_rail_of_a_prismatic_joint_reaches_over_its_limits():
     assert 0.4 < along.max() < 0.42
 
 
+def test_a_rail_without_limits_is_as_long_as_the_arm():
+    """So are limits of a kilometre, which stand for none."""
+    for limits in ((-math.inf, math.inf), (-1e3, 1e3)):
+        slide = pk.Joint("slide", "prismatic", "base", "cart", axis=(1, 0, 0), limits=limits)
+        arm = pk.Joint("turn", "revolute", "cart", "arm", pk.se3.exp([0, 0, 0, 0, 0, 1]))
+        scene = arm_scene(pk.Robot("cart", ["base", "cart", "arm"], [slide, arm]))
+        (rail,) = (
+            node
+            for node in of_kind(scene.nodes, Triangles, "skeleton")
+            if node.hung.role == "first" and node.hung.link == 0
+        )
+        assert scene.size == 1.0
+        assert 1.0 < np.ptp(rail.vertices[:, 0]) < 1.05
+
+
 def test_sliders_have_the_names_units_and_limits_of_the_coordinates():
     scene = arm_scene(odd_robot())
     assert scene.arms[0].coordinates == (
@@ -266,6 +282,7 @@ def test_the_table_holds_the_screws_of_the_chain():
                 assert (place, pitch) == ("none", "∞")
             else:
                 found = pk.screw.axis_of(chain.screws[k])
+                assert found.point is not None
                 point = [float(x) for x in place.split(", ")]
                 np.testing.assert_allclose(point, found.point, rtol=0, atol=5e-6)
                 assert float(pitch) == pytest.approx(found.pitch, abs=5e-7)

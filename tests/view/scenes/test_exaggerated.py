@@ -42,7 +42,10 @@ def axis_at(made: Any, k: float, joint: int, q: Any) -> np.ndarray:
     at_rest = pk.se3.exp(-made.moves[joint]) if made.factor > 1 else np.eye(4)
     axis = pk.se3.adjoint(at_rest) @ chain.screws[made.axes[joint]]
     zero = np.zeros(chain.dof)
-    bodies = [np.eye(4), *(chain.joint_poses(np.append(q, k)) @ pk.se3.inverse(chain.joint_poses(zero)))]
+    bodies = [
+        np.eye(4),
+        *(chain.joint_poses(np.append(q, k)) @ pk.se3.inverse(chain.joint_poses(zero))),
+    ]
     return pk.se3.adjoint(bodies[made.axes[joint]]) @ axis
 
 
@@ -92,7 +95,12 @@ def test_bodies_are_those_behind_the_joints_whatever_k_is():
 
 
 def test_a_slide_that_leans_and_a_link_that_is_longer_are_exaggerated_too():
-    A = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([1, 0, 0]), pk.screw.revolute([0, 1, 0], [0.5, 0, 0]), pk.screw.revolute([1, 0, 0], [0.5, 0.2, 0])]
+    A = [
+        pk.screw.revolute([0, 0, 1], [0, 0, 0]),
+        pk.screw.prismatic([1, 0, 0]),
+        pk.screw.revolute([0, 1, 0], [0.5, 0, 0]),
+        pk.screw.revolute([1, 0, 0], [0.5, 0.2, 0]),
+    ]
     arm = pk.Chain.from_space(A, pk.se3.exp([0, 0, 0, 0.8, 0.2, 0]))
     A[1] = pk.screw.prismatic([np.cos(0.01), np.sin(0.01), 0])
     found = pk.compare(arm, pk.Chain.from_space(A, arm.home))

@@ -11,15 +11,16 @@ from ...nodes import Hung, Label, Node, Polyline, Role, Triangles
 from ...scene import PageTable
 from ...shapes import cone, frame_axes
 from .geometry import ArmGeometry, JointGeometry
+from .skeleton import LARGEST
 
 HALF_LINE = 4.0
 """Half an axis line as a multiple of the radius of the joint's glyph."""
 COVERED = 1.6
 """Factor by which lines and frames are longer where bodies cover them."""
-END_FRAME = 0.12
-"""Length of the arrows of the base's and the first tip's frame, as a share of the arm's size."""
-LINK_FRAME = 0.045
-"""The same, of other frames."""
+END_FRAME = 3.0
+"""Length of the arrows of the base's and the first tip's frame, by the radius of the largest glyph."""
+LINK_FRAME = 1.2
+"""Length of the arrows of other frames, by the radius of the glyph above them."""
 HEADS = ("axis", "joint", "kind", "ω", "point nearest to the origin, m", "v", "pitch, m/rad")
 XYZ: tuple[Role, Role, Role] = ("x", "y", "z")
 
@@ -68,15 +69,25 @@ def label_nodes(arm: ArmGeometry, radii: Array) -> list[Node]:
     ]
 
 
-def frame_nodes(arm: ArmGeometry, size: float, covered: bool = False) -> list[Node]:
+def frame_nodes(
+    arm: ArmGeometry,
+    radii: Array,
+    size: float,
+    covered: bool = False,
+) -> list[Node]:
     """Frames as three arrows; those of the base and of the first tip are larger, and longer still where
     bodies cover them; tips have their names.
     """
     nodes: list[Node] = []
+    largest = float(radii.max(initial=0.0)) or LARGEST * size
+    lengths = {
+        joint.child: LINK_FRAME * float(radius)
+        for joint, radius in zip(arm.joints, radii, strict=True)
+    }
     for frame in arm.frames:
-        length = LINK_FRAME * size
+        length = lengths.get(frame.link, LINK_FRAME * largest)
         if frame.kind == "end":
-            length = END_FRAME * size * (COVERED if covered else 1.0)
+            length = END_FRAME * largest * (COVERED if covered else 1.0)
         for role, axis in zip(XYZ, frame_axes(frame.pose, length), strict=True):
             nodes.append(Triangles(Hung("frames", role, frame.link, name=frame.name), *axis))
         if frame.kind != "link":

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ....formats.visuals.visual import LeftOut
 from ...nodes import Triangles
 from .geometry import ArmGeometry
-from .skeleton import bone_node
+from .skeleton import bone_nodes
 
 THICK = 0.02
 """Radius of a bone in place of a mesh, as a share of the arm's size."""
@@ -24,8 +24,7 @@ def stand_ins(
     """Bones of the links of which nothing is drawn though they have a shape."""
     drawn = {body.hung.link for body in bodies}
     lost = {arm.links.index(left.link) for left in left_out if left.link}
-    nodes = [bone_node(arm, link, THICK * size, size, "meshes") for link in sorted(lost - drawn)]
-    return [node for node in nodes if node is not None]
+    return bone_nodes(arm, dict.fromkeys(lost - drawn, THICK * size), size, "meshes")
 
 
 def left_out_words(left_out: Sequence[LeftOut]) -> list[str]:

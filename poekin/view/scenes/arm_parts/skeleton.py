@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cache
 
 import numpy as np
@@ -18,6 +19,8 @@ SMALLEST = 0.006
 """The same, of joints that stand close together."""
 COINCIDENT = 0.01
 """Distance, as a share of the arm's size, up to which joints are taken for one place."""
+LONGEST_RAIL = 20.0
+"""Limit of a prismatic joint, in sizes of the arm, beyond which it is taken for none."""
 BONE = 0.3
 """Radius of a bone as a share of the glyph's at its joint."""
 
@@ -28,9 +31,7 @@ def glyph_radii(arm: ArmGeometry, q: Array, size: float) -> Array:
     if not arm.joints:
         return np.zeros(0)
     places = np.array([T[j.parent, :3, :3] @ j.point + T[j.parent, :3, 3] for j in arm.joints])
-    gaps = np.linalg.norm(places[:, None] - places, axis=-1)
-    gaps[gaps <= COINCIDENT * size] = np.inf
-    room = 0.35 * gaps.min(axis=1)
+    room = np.array([_room(place, places, COINCIDENT * size) for place in places])
     for k, joint in enumerate(arm.joints):
         if joint.kind == "prismatic":  # a slide is no longer than a few times its way
             room[k] = min(room[k], 0.5 * (joint.limits[1] - joint.limits[0]))
@@ -38,54 +39,53 @@ def glyph_radii(arm: ArmGeometry, q: Array, size: float) -> Array:
     return np.clip(room, SMALLEST * size, max(largest, SMALLEST * size))
 
 
+def _room(place: Array, places: Array, coincident: float) -> float:
+    """Largest radius that leaves the next place free, of those that are not here."""
+    gaps = np.linalg.norm(places - place, axis=1)
+    return 0.35 * float(gaps[gaps > coincident].min(initial=np.inf))
+
+
 def skeleton_nodes(arm: ArmGeometry, radii: Array, size: float) -> list[Node]:
     """Bones, one node a link, and glyphs, one a joint."""
-    thickness = _bone_radii(arm, radii, size)
-    links = [
-        bone_node(arm, link, thickness[link], size, "skeleton") for link in range(len(arm.links))
-    ]
+    thickness = dict.fromkeys(range(len(arm.links)), BONE * SMALLEST * size)
+    for joint, radius in zip(arm.joints, radii.tolist(), strict=True):
+        for link in (joint.parent, joint.child):
+            thickness[link] = max(thickness[link], BONE * radius)
     glyphs = [
-        _glyph_node(joint, float(radius)) for joint, radius in zip(arm.joints, radii, strict=True)
+        _glyph_node(joint, radius) for joint, radius in zip(arm.joints, radii.tolist(), strict=True)
     ]
-    return [*(node for node in links if node is not None), *glyphs]
+    return [*bone_nodes(arm, thickness, size, "skeleton"), *glyphs]
 
 
-def bone_node(
+def bone_nodes(
     arm: ArmGeometry,
-    link: int,
-    radius: float,
+    thickness: Mapping[int, float],
     size: float,
     layer: Layer,
-) -> Triangles | None:
-    """Bones of a link and the rails of its prismatic joints; None where it has none."""
-    bones = [
-        capsule(bone.start, bone.end, radius)
-        for bone in arm.bones
-        if bone.link == link and np.linalg.norm(bone.end - bone.start) > 1e-6 * size
+) -> list[Triangles]:
+    """Bones, and rails of prismatic joints, of the links for which a radius is given."""
+    pieces: dict[int, list[Surface]] = {}
+    for bone in arm.bones:
+        long = np.linalg.norm(bone.end - bone.start) > 1e-6 * size
+        if long and bone.link in thickness:
+            made = capsule(bone.start, bone.end, thickness[bone.link])
+            pieces.setdefault(bone.link, []).append(made)
+    for joint in arm.joints:
+        if joint.kind == "prismatic" and joint.parent in thickness:
+            rail = capsule(*_rail(joint, size), 0.5 * thickness[joint.parent])
+            pieces.setdefault(joint.parent, []).append(rail)
+    return [
+        Triangles(Hung(layer, "first", link, name=arm.links[link]), *merged(*surfaces))
+        for link, surfaces in pieces.items()
     ]
-    rails = [
-        capsule(*_rail(joint, size), 0.5 * radius)
-        for joint in arm.joints
-        if joint.parent == link and joint.kind == "prismatic"
-    ]
-    if not bones and not rails:
-        return None
-    return Triangles(Hung(layer, "first", link, name=arm.links[link]), *merged(*bones, *rails))
-
-
-def _bone_radii(arm: ArmGeometry, radii: Array, size: float) -> Array:
-    """Radii (L,) of the bones: by the largest glyph on the link, and SMALLEST where there is none."""
-    found = np.full(len(arm.links), SMALLEST * size)
-    for joint, radius in zip(arm.joints, radii, strict=True):
-        for link in (joint.parent, joint.child):
-            found[link] = max(found[link], radius)
-    return BONE * found
 
 
 def _rail(joint: JointGeometry, size: float) -> tuple[Array, Array]:
-    """Ends of the way of a prismatic joint: within its limits, half the arm where it has none."""
+    """Ends of the way of a prismatic joint: within its limits, half the arm where it has none that a
+    page could show.
+    """
     low, high = (
-        limit if math.isfinite(limit) else math.copysign(0.5 * size, limit)
+        limit if abs(limit) <= LONGEST_RAIL * size else math.copysign(0.5 * size, limit)
         for limit in joint.limits
     )
     start = joint.point + min(low, 0.0) * joint.direction
