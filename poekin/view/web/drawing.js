@@ -150,6 +150,26 @@ export class Drawing {
         this.K.render();
     }
 
+    // Shows of the clouds only what lies below a plane across an axis of the world, 0, 1 or 2, a share
+    // of their extent from its lower end; all of them where axis is null.
+    cut(axis, share) {
+        const { THREE } = this.K.Provider;
+        const clouds = this.three.filter((_, k) => this.state.scene.objects[k].kind === "cloud");
+        const box = new THREE.Box3();
+        clouds.forEach((cloud) => box.expandByObject(cloud));
+        const low = box.min.getComponent(axis ?? 0);
+        const at = low + share * (box.max.getComponent(axis ?? 0) - low);
+        const normal = new THREE.Vector3().setComponent(axis ?? 0, -1);
+        const planes = axis === null ? [] : [new THREE.Plane(normal, at)];
+        this.K.getWorld().renderer.localClippingEnabled = true;
+        clouds.forEach((cloud) => cloud.traverse(({ material }) => {
+            if (material) {
+                Object.assign(material, { clipping: true, clippingPlanes: planes, needsUpdate: true });
+            }
+        }));
+        this.K.render();
+    }
+
     // A camera that sees all that is shown, from the front, a little from above.
     fit() {
         const { THREE } = this.K.Provider;
