@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...groups.arrays import Array
+from ..ik.diagnosis import AT_LIMIT
 
 
 @dataclass(frozen=True, order=True)
@@ -18,7 +20,7 @@ class PathInterval:
     first, last : int
         Numbers of the first and the last point.
     name : str
-        Name of the coordinate; "" for all of them together.
+        Name of the coordinate or joint; "" for all of them together.
     worst : int
         Number of the worst point.
     value : float
@@ -60,3 +62,13 @@ def intervals(
         )
         found.append(interval)
     return found
+
+
+def intervals_at_limits(x: Array, limits: Array, names: Sequence[str]) -> tuple[PathInterval, ...]:
+    """Intervals in which one of the values (N, k) is at one of its limits (k, 2)."""
+    found = []
+    for values, bounds, name in zip(x.T, limits, names, strict=True):
+        for bound in bounds:
+            off = np.abs(values - bound)
+            found += intervals(off <= AT_LIMIT, values, -off, bound, name)
+    return tuple(sorted(found))
