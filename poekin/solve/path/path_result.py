@@ -156,9 +156,7 @@ class PathResult(Result):
 
     @cached_property
     def joints_at_limits(self) -> tuple[PathInterval, ...]:
-        """Intervals in which a joint that coordinates move together is at its own limit, `bound`;
-        `worst` is the first point.
-        """
+        """Intervals in which a joint is at its own limit, `bound`; `worst` is the first point."""
         if self.joint_limits is None:
             return ()
         x = joint_values(self.chain, self.q)
