@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.model.readings.coupled import beyond_own_limits
+from poekin.solve.ik.joint_domain import make_joint_domain
+from poekin.solve.joint_units import joint_units
 
 ARM = pk.load("puma560").chain()
 SAID = {
@@ -212,6 +215,39 @@ def test_a_path_slides_along_a_joint_s_own_limit_where_what_it_follows_is_locked
     free = pk.follow(chain, T, q0=q0, task="position", lock={"joint2": q0[1]}, limits=False)
     assert free.joint_limits is None
     assert free.joints_at_limits == ()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_locked_readings_leave_of_joints_limits_is_the_domain_of_the_others(seed):
+    rng = np.random.default_rng(seed)
+    chain = ARM.coupled(["J3 = J2 + 2 J3", "J4 = 3 J4 - J3", "J6 = J6 - 1/2 J5"])
+    narrow = chain.limits * rng.uniform(0.1, 1, (6, 1))
+    chain = chain.replace(limits=narrow)
+    lock = tuple((name, 0.3 * chain.random(rng)[k]) for name, k in (("joint2", 1), ("joint6", 5)))
+    units = joint_units(chain.compile(), True)
+    domain = make_joint_domain(units, lock, True)
+    x = domain.held(np.zeros(6))
+    assert (domain.limits[:, 0] <= domain.limits[:, 1]).all()
+    fast = units.fast.chain
+    # Joint 4 follows two that are free: what it leaves of them is no box.
+    asked = np.arange(6) != 3
+    for k in (2, 4):
+        for end, beyond in zip(domain.limits[k], (-1e-9, 1e-9), strict=True):
+            x[k] = end
+            assert not beyond_own_limits(fast, x)[asked].any()
+            x[k] += beyond
+            out = (x < fast.limits[:, 0]) | (x > fast.limits[:, 1])
+            assert (beyond_own_limits(fast, x)[asked] | out[asked]).any()
+        x[k] = 0.0
+
+
+def test_readings_that_cannot_keep_a_joint_s_limits_beside_what_is_locked_have_their_own():
+    chain = narrow(ARM.coupled("J3 = J2 + J3"), -0.1, 0.1)
+    units = joint_units(chain.compile(), True)
+    domain = make_joint_domain(units, (("joint2", 1.5),), True)
+    np.testing.assert_array_equal(domain.limits[2], [-0.1, 0.1])
+    found = pk.ik(chain, chain.fk([0.1, 1.5, 0.05, 0.2, 0.3, 0.4]), lock={"joint2": 1.5})
+    assert found.reason == "limits"
 
 
 def test_limits_of_joints_that_no_reading_beside_what_is_locked_can_keep_are_told():

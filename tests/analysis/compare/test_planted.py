@@ -12,6 +12,7 @@ import pytest
 from benchmarks.planted_changes import ARMS, arm
 from poekin.analysis.compare.compare import compare
 from poekin.formats.load import load
+from poekin.groups import se3
 from tests.analysis.compare.planted import KINDS, Case, fault, plant, with_limits
 from tests.analysis.compare.test_compare_slides import COBRA, RAILS
 
@@ -93,6 +94,16 @@ def test_a_longer_link_is_named_where_a_slide_that_shows_no_motion_lies_beside_i
         assert fault(result, case) == ""
         slides = chain.kinds[k + 1] == "prismatic"
         assert any("which slides" in said for said in result.alternatives) == slides
+
+
+def test_a_link_that_turned_the_slide_behind_it_is_not_one_behind_the_slide():
+    S = COBRA.screws.copy()
+    T = se3.exp([0.01, 0, 0, 0, 0.005, 0])
+    S[2:] = S[2:] @ se3.adjoint(T).T
+    result = compare(COBRA, COBRA.replace(screws=S, home=T @ COBRA.home), samples=5)
+    (said,) = result.findings
+    assert said.startswith("the link between joint 2 ('joint2') and joint 3 ('joint3') differs")
+    assert not any("which slides" in said for said in result.alternatives)
 
 
 @pytest.mark.parametrize("swapped", [False, True])
