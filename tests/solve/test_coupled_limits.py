@@ -190,12 +190,12 @@ def test_no_reading_steps_farther_than_is_said(chain):
 
 
 def reaching(chain, count=80):
-    """Positions along which joint 3 alone would go 0.15 rad beyond its limit, and where they start."""
-    x0 = np.array([0.2, 0.5, UPPER[2] - 0.15, 0.1, 0.8, 0.3])
+    """Positions along which joint 3 alone would go beyond its limit, and where they start."""
+    x0 = np.array([0.2, 0.5, UPPER[2] - 0.1, 0.1, 0.8, 0.3])
     q0 = np.linalg.solve(chain.coupling, x0)
     way = chain.jacobian(q0, "hybrid")[3:, 2]
     T = np.tile(chain.fk(q0), (count, 1, 1))
-    T[:, :3, 3] += np.linspace(0, 0.12, count)[:, None] * way / np.linalg.norm(way)
+    T[:, :3, 3] += np.linspace(0, 0.14, count)[:, None] * way / np.linalg.norm(way)
     return T, q0
 
 
@@ -215,6 +215,28 @@ def test_a_path_slides_along_a_joint_s_own_limit_where_what_it_follows_is_locked
     free = pk.follow(chain, T, q0=q0, task="position", lock={"joint2": q0[1]}, limits=False)
     assert free.joint_limits is None
     assert free.joints_at_limits == ()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_path_slides_along_a_joint_s_own_limit_where_those_of_readings_are_narrower(seed):
+    rng = np.random.default_rng(seed)
+    tool = pk.se3.exp([0, 0, 0, 0.1, 0.05, 0.3])
+    chain = ARM.retooled(tool).coupled("J3 = J2 + J3")
+    T, q0 = reaching(chain)
+    T[:, :3, 3] += np.linspace(0, 0.02, len(T))[:, None] * rng.normal(size=3)
+    limits = chain.limits.copy()
+    limits[1] = q0[1] - 0.05, q0[1] + 0.05
+    limits[2] = -3.0, 1.5
+    chain = chain.replace(limits=limits)
+    path = pk.follow(chain, T, q0=q0, task="position")
+    assert path.ok
+    assert path.largest_step < 0.05
+    assert own(chain, path.q).all()
+    assert ((path.q >= limits[:, 0]) & (path.q <= limits[:, 1])).all()
+    assert [met.name for met in path.joints_at_limits] == ["joint3"]
+    # Within the reading's limits alone the same path leaves joint 3's.
+    wide = chain.replace(joint_limits=None)
+    assert not own(chain, pk.follow(wide, T, q0=q0, task="position").q).all()
 
 
 @pytest.mark.parametrize("seed", range(5))
