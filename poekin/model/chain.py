@@ -362,7 +362,8 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
         """Configurations drawn uniformly within the limits.
 
         A coordinate without limits is drawn from one turn, or 1 m either way, of the joint that it
-        moves fastest. Joints are within their own limits, `joint_limits`, too.
+        moves fastest, about 0 or, where joints do not get there otherwise, about the middle of
+        their own limits. Joints are within their own limits, `joint_limits`, too.
 
         Parameters
         ----------

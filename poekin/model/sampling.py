@@ -7,7 +7,7 @@ import numpy as np
 from ..errors import InputError
 from ..groups.arrays import Array
 from .chain_data import ChainData
-from .readings.coupled import beyond_own_limits
+from .readings.coupled import beyond_own_limits, sum_limits
 
 DRAWS = 10_000
 """Draws of a configuration after which there is hardly any."""
@@ -44,7 +44,31 @@ def sampling_range(chain: ChainData) -> tuple[Array, Array]:
     has_upper = np.isfinite(upper)
     low = np.where(has_lower, lower, np.where(has_upper, upper - 2 * half, -half))
     high = np.where(has_upper, upper, np.where(has_lower, lower + 2 * half, half))
+    _move_to_joint_limits(chain, low, high)
     return low, high
+
+
+def _move_to_joint_limits(chain: ChainData, low: Array, high: Array) -> None:
+    """Moves ranges of coordinates without limits to where the joints are in the middle of their own,
+    where they do not reach that.
+
+    Of the coordinates that a joint follows the one is moved that the fewest limited joints follow.
+    """
+    limited = np.isfinite(chain.joint_limits).any(axis=1)
+    C = chain.coupling
+    free = np.isinf(chain.limits).all(axis=1)
+    shared = np.count_nonzero(C[limited], axis=0)
+    for j in np.flatnonzero(limited):
+        (ends,) = sum_limits(C[j : j + 1], np.stack([low, high], axis=1)) + chain.offset[j]
+        middle = chain.joint_limits[j].mean()
+        if np.isinf(middle):
+            middle = np.clip(ends.mean(), *chain.joint_limits[j])
+        moving = np.flatnonzero(free & (C[j] != 0))
+        if len(moving) and not ends[0] <= middle <= ends[1]:
+            k = moving[np.argmin(shared[moving])]
+            moved = (middle - ends.mean()) / C[j, k]
+            low[k] += moved
+            high[k] += moved
 
 
 def half_range(chain: ChainData) -> Array:
