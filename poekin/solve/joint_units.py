@@ -16,7 +16,7 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.kinematics.compiled import CompiledChain
 from ..model.readings.coupled import own_limits, reading_limits
-from ..model.sampling import dominant_ratio
+from ..model.sampling import dominant_ratios
 from .chain_cache import ChainCache
 
 MOST_TURNS = 12
@@ -81,7 +81,7 @@ def _joint_units(fast: CompiledChain, locked: bool) -> JointUnits:
             coupling=None, q_names=chain.joint_names, limits=limits, joint_limits=None
         )
         return JointUnits(own.compile(), C)
-    scale = np.array([dominant_ratio(chain, k) for k in range(chain.dof)])
+    scale = dominant_ratios(chain)
     if (scale == 1.0).all():
         return JointUnits(fast, None)
     limits = np.sort(chain.limits * scale[:, None], axis=1)
