@@ -16,7 +16,7 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.kinematics.compiled import CompiledChain
 from ..model.readings.coupled import own_limits, reading_limits
-from ..model.sampling import dominant_ratio
+from ..model.sampling import dominant_ratios
 from .chain_cache import ChainCache
 
 MOST_TURNS = 12
@@ -77,7 +77,7 @@ def _joint_units(fast: CompiledChain, locked: bool) -> JointUnits:
     C = chain.coupling
     if not locked and _sums_imply_limits(chain):
         return in_joints(chain)
-    scale = np.array([dominant_ratio(chain, k) for k in range(chain.dof)])
+    scale = dominant_ratios(chain)
     if (scale == 1.0).all():
         return JointUnits(fast, None)
     limits = np.sort(chain.limits * scale[:, None], axis=1)

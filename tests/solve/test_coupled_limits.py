@@ -128,6 +128,21 @@ def narrow(chain, least, most):
     return chain.replace(limits=limits)
 
 
+@pytest.mark.parametrize("side", [0, 1], ids=["lower", "upper"])
+def test_every_pose_is_reached_within_limits_of_a_reading_that_are_narrower_on_one_side_alone(side):
+    wide = ARM.coupled("J3 = J2 + J3")
+    ends = wide.limits[2].copy()
+    ends[side] = -1.5
+    chain = narrow(wide, *ends)
+    T = chain.fk(chain.random(3, 100))
+    found = pk.ik(chain, T)
+    assert found.success.all()
+    assert own(chain, found.q).all()
+    assert (ends[0] <= found.q[:, 2]).all()
+    assert (found.q[:, 2] <= ends[1]).all()
+    np.testing.assert_allclose(chain.fk(found.q) - T, 0, atol=1e-8)
+
+
 def test_of_solutions_whole_turns_apart_those_within_all_limits_are_counted_and_none_is_lost():
     turn = 2 * np.pi
     wide = ARM.replace(limits=[[-turn, turn]] * 6)
