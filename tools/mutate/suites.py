@@ -76,6 +76,8 @@ WHOLE = {
     "analysis/": "analysis/ cli/",
     "solve/": "solve/ cli/",
     "solve/calibration/": "solve/calibration/ cli/calibrate",
+    "html_page svg": "html_page solve/ view/",
+    "view/": "view/ cli/",
     "testing/": f"testing/ groups/ {CHAINS} cli/conform cli/validate",
     "cli/": "cli/",
 }

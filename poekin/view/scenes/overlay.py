@@ -55,7 +55,10 @@ def second_nodes(
     radii = glyph_radii(geometry, np.zeros(len(geometry.sliders)), size)
     arm = _on_bodies(geometry, second)
     frames = tuple(frame for frame in arm.frames if frame.kind == "end" and frame.name in ends)
-    nodes = [*skeleton_nodes(arm, radii, size), *frame_nodes(replace(arm, frames=frames), size)]
+    nodes = [
+        *skeleton_nodes(arm, radii, size),
+        *frame_nodes(replace(arm, frames=frames), radii, size),
+    ]
     drawn = [_of_second(node, differing) for node in nodes]
     for k, joint in enumerate(arm.joints):
         if joint.name not in differing:
