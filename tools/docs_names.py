@@ -35,6 +35,7 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "poses": ("poses: formats of controllers, ROS and spreadsheets", ("poses",)),
     "calibration": ("Calibration", ("calibrate", "choose_poses", "calibration")),
     "emit": ("emit: source code of an arm", ("emit",)),
+    "view": ("view: pages in which arms move", ("view",)),
     "count": ("Operation counts", ("count", "count_table")),
     "errors": ("Errors and warnings", ("PoekinError", "PoekinWarning", "errors")),
 }  # fmt: skip
@@ -89,6 +90,7 @@ RESULTS: dict[str, str] = {
     "poekin.analysis.counting.count_table.CountTable": "count",
     "poekin.analysis.counting.count_table.CountRow": "count",
     "poekin.engine.count.Count": "count",
+    "poekin.view.page.Page": "view",
 }
 
 
@@ -137,13 +139,18 @@ def members(owner: type) -> Iterator[tuple[str, object]]:
 
 
 def resolved(dotted: str) -> object:
-    """What a full name stands for: the longest part of it that is a module, then attributes."""
+    """What a full name stands for: the longest part of it that is a module, then attributes; of a
+    module that shares its name with a function beside it, as `poekin.view`, the function.
+    """
     parts = dotted.split(".")
     for length in range(len(parts), 0, -1):
         try:
             found: object = importlib.import_module(".".join(parts[:length]))
         except ModuleNotFoundError:
             continue
+        if 1 < length == len(parts):
+            above = importlib.import_module(".".join(parts[:-1]))
+            return getattr(above, parts[-1], found)
         for name in parts[length:]:
             found = getattr(found, name)
         return found
@@ -201,7 +208,7 @@ def links(name: str) -> dict[str, str]:
     for dotted in documented():
         parts = dotted.split(".")
         if not dotted.startswith(
-            ("poekin.model.", "poekin.analysis.", "poekin.solve.", "poekin.engine.")
+            ("poekin.model.", "poekin.analysis.", "poekin.solve.", "poekin.engine.", "poekin.view.")
         ):
             found[".".join(parts[1:])] = found["pk." + ".".join(parts[1:])] = found[dotted] = dotted
         else:

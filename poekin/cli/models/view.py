@@ -79,7 +79,7 @@ def command(
     show: Open = False,
 ) -> None:
     """A page of a model that moves: sliders, screws, frames and numbers in one HTML file, offline."""
-    asked = Asked(tip, base, q, other, path, pose, SaidUnits(mm, deg), not no_meshes)
+    asked = ViewOptions(tip, base, q, other, path, pose, SaidUnits(mm, deg), not no_meshes)
     asked.check(format, quaternion)
     pages.check(output)
     array_files.check_apart([output], model=file, second=other, path=path)
@@ -97,7 +97,7 @@ def command(
         webbrowser.open(place.resolve().as_uri())
 
 
-class Asked(NamedTuple):
+class ViewOptions(NamedTuple):
     """What the command line asks for; see the options."""
 
     tip: str | None
@@ -121,7 +121,7 @@ class Asked(NamedTuple):
             raise InputError("--format and --quaternion: expected together with --pose")
 
 
-def _of_robot(robot: Robot, asked: Asked, format: str | None, quaternion: str | None) -> Page:
+def _of_robot(robot: Robot, asked: ViewOptions, format: str | None, quaternion: str | None) -> Page:
     """Page of a robot, of one of its chains, a path or a pose."""
     units = asked.units
     if asked.path is None and asked.pose is None and asked.q is None and asked.base is None:
@@ -146,10 +146,10 @@ def _path(given: str, chain: Chain, units: SaidUnits) -> PathResult:
         return joint_path(chain, *read_joints(given, chain))
     with Progress("reading") as progress:
         q = array_files.read_configurations(given, units.columns(chain), progress)
-    return joint_path(chain, q)
+    return joint_path(chain, units.to_si(q, chain))
 
 
-def _compared(file: str, asked: Asked) -> tuple[Page, str]:
+def _compared(file: str, asked: ViewOptions) -> tuple[Page, str]:
     """Page of two models, and its name."""
     other = asked.other or ""
     robot_a, robot_b = models(file, other)

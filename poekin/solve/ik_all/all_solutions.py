@@ -47,7 +47,7 @@ class AllSolutions(Result):
     chain : Chain or None
         The arm; None of a result that was put together by hand.
     target : (..., 4, 4) ndarray or None
-        The targets, m.
+        Target poses of the tip in the base frame, m.
     """
 
     left_out = ("chain", "target")

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...engine.jit import cache, cache_size
 from ...formats.text import xml
 from .load import MeshPart, load
 
@@ -19,6 +18,8 @@ VERSION = 1
 
 def parts_of(path: str) -> tuple[MeshPart, ...]:
     """Parts of a mesh file. Raises: FileError for what cannot be read; MissingExtra."""
+    from ...engine.jit import cache, cache_size  # imports Numba, which waits for the first need
+
     data = xml.read_bytes(path)
     ending = os.path.splitext(path)[1].lower()
     if ending == ".obj":  # its colours are in another file

@@ -17,8 +17,8 @@ from ..scene import PageTable, Scene
 from ..shapes import arrow, merged
 from .arm import arm_scene
 from .arm_parts.of_chain import chain_geometry
-from .exaggerated import STEPS, exaggerated
-from .overlay import second_arm, second_nodes
+from .two_arms.exaggerated import STEPS, exaggerated
+from .two_arms.overlay import second_arm, second_nodes
 
 MOST = 400
 """Residuals that are drawn."""

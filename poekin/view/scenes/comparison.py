@@ -14,8 +14,8 @@ from ...groups import se3
 from ..scene import PageTable, Scene
 from .arm import arm_scene, arm_size
 from .arm_parts.of_chain import chain_geometry
-from .exaggerated import compared_rows, exaggerated, zeros_and_directions
-from .overlay import second_arm, second_nodes
+from .two_arms.exaggerated import compared_rows, exaggerated, zeros_and_directions
+from .two_arms.overlay import second_arm, second_nodes
 
 MOST_WORDS = 8
 """Sentences of the comparison that the page holds."""
@@ -62,7 +62,7 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
         factors = directions[:, None] * found.a.coupling[compared_rows(found)]
     arm = second_arm(second, base, factors, shift)
     size = max(scene.size, arm_size(geometry, np.zeros(n)))
-    nodes = second_nodes(second, geometry, _sentences(found), _moved_ends(found), size)
+    nodes = second_nodes(second, geometry, _sentences(found), set(_moved_ends(found)), size)
     lines = found.summary().splitlines()
     words = [lines[-1], *lines[:-1]]
     return replace(

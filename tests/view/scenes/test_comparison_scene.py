@@ -7,7 +7,11 @@ import pytest
 
 import poekin as pk
 from poekin.view.nodes import Label
+from poekin.view.scenes.arm_parts.of_chain import chain_geometry
+from poekin.view.scenes.arm_parts.skeleton import glyph_radii, skeleton_nodes
 from poekin.view.scenes.comparison import comparison_scene
+from poekin.view.scenes.two_arms.exaggerated import exaggerated
+from poekin.view.scenes.two_arms.overlay import second_nodes
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 
@@ -88,9 +92,38 @@ def test_joints_that_cannot_be_matched_are_drawn_as_they_stand():
 
 
 def test_a_dropped_joint_leaves_the_others_on_their_sliders():
-    short = pk.Chain(np.delete(ARM.screws, 2, axis=0), ARM.home, frame="space", joint_names=[n for k, n in enumerate(ARM.joint_names) if k != 2])  # fmt: skip
+    names = [name for k, name in enumerate(ARM.joint_names) if k != 2]
+    screws = np.delete(ARM.screws, 2, axis=0)
+    short = pk.Chain(screws, ARM.home, frame="space", joint_names=names)
     found = pk.compare(ARM, short)
     assert found.unmatched_joints == ("a", "panda_joint3")
     factors = comparison_scene(found).arms[1].factors
     assert factors.shape == (6, 7)
     np.testing.assert_array_equal(np.abs(factors), np.delete(np.eye(7), 2, axis=0))
+
+
+def test_frames_of_the_second_arm_are_drawn_where_they_are_elsewhere():
+    up = pk.se3.exp([0, 0, 0, 0, 0, 0.1])
+    for b, ends in ((ARM.rebased(up), {ARM.base}), (ARM.retooled(up), {ARM.tip}), (ARM, set())):
+        scene = comparison_scene(pk.compare(ARM, b))
+        frames = [n for n in scene.nodes if n.hung.layer == "frames" and n.hung.arm == 1]
+        assert {n.hung.name for n in frames} == ends
+    both = comparison_scene(pk.compare(ARM, ARM.rebased(up).retooled(up)))
+    names = {n.hung.name for n in both.nodes if n.hung.layer == "frames" and n.hung.arm == 1}
+    assert names == {ARM.base, ARM.tip}
+
+
+def test_links_of_the_second_arm_are_where_model_b_has_them():
+    found = pk.compare(ARM, lifted())
+    made = exaggerated(found)
+    b = chain_geometry(found.b)
+    q = ARM.random(8)
+    plain = b.poses(q)
+    drawn = chain_geometry(made.chain).poses(np.append(q, 1.0))
+    radii = glyph_radii(b, np.zeros(7), 1.0)
+    true = [n for n in skeleton_nodes(b, radii, 1.0) if n.hung.role == "first"]
+    nodes = [n for n in second_nodes(made, b, {}, (), 1.0) if n.hung.layer == "skeleton"]
+    assert len(true) == 6
+    for one, other in zip(true, nodes, strict=False):
+        np.testing.assert_array_equal(one.vertices, other.vertices)
+        np.testing.assert_allclose(drawn[other.hung.link], plain[one.hung.link], atol=1e-12)

@@ -104,6 +104,7 @@ def load(path: str | os.PathLike[str]) -> CalibrationData:
         noise_std=tuple(map(_noise, keys.tables("noise_std", ("length", "angle")))),
         loss=keys.text("loss", LOSSES),  # type: ignore[arg-type]  # one of these
         error_model=model,
+        vectors=None,
         **{name: keys.texts(name) for name in ("warnings", "remarks") if name in keys.data},
     )
     toml_checks.check_sets(keys, found)

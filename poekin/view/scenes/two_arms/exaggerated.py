@@ -14,12 +14,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.axis_lines import direction, place, prismatic
-from ...analysis.compare.alignment.lines import lines
-from ...analysis.compare.comparison import NOISE, Comparison
-from ...groups import se3, so3
-from ...groups.arrays import Array
-from ...model.chain import Chain
+from ....analysis.axis_lines import direction, place, prismatic
+from ....analysis.compare.alignment.lines import lines
+from ....analysis.compare.comparison import NOISE, Comparison
+from ....groups import se3, so3
+from ....groups.arrays import Array
+from ....model.chain import Chain
 
 FACTOR = "exaggeration"
 """Name of the coordinate k."""

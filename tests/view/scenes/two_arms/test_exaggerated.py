@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.view.scenes.exaggerated import (
+from poekin.view.scenes.two_arms.exaggerated import (
     FACTOR,
     compared_rows,
     exaggerated,
@@ -116,3 +116,18 @@ def test_models_that_agree_have_no_factor():
         made = exaggerated(pk.compare(ARM, b))
         assert (made.factor, made.chain.dof) == (1.0, 7)
         assert made.bodies == (*range(8), 7)
+
+
+def test_a_longer_link_takes_the_tool_along():
+    longer = pk.se3.exp([0, 0, 0, 0, 0, 0.003])
+    screws = ARM.screws.copy()
+    screws[4:] = screws[4:] @ pk.se3.adjoint(longer).T
+    found = pk.compare(ARM, ARM.replace(screws=screws, home=longer @ ARM.home))
+    made = exaggerated(found)
+    assert made.factor > 1
+    q = ARM.random(3)
+    y = own(found, q)
+    # the axes along the link are the same lines, and the tool is where the link's end is
+    np.testing.assert_allclose(made.chain.fk([*y, 0.0]), ARM.fk(q), atol=1e-9)
+    far = made.chain.fk([*y, 10.0])[:3, 3] - ARM.fk(q)[:3, 3]
+    assert np.linalg.norm(far) == pytest.approx(0.03, rel=1e-6)

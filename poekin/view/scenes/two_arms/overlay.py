@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container
 from dataclasses import replace
 
 import numpy as np
 
-from ...groups import se3
-from ...groups.arrays import Array
-from ..kinematics import page_tips
-from ..nodes import Hung, Label, Layer, Node, Polyline, Role, Triangles
-from ..scene import SceneArm
-from .arm import scene_arm
-from .arm_parts.axes import axis_nodes, frame_nodes
-from .arm_parts.geometry import ArmGeometry
-from .arm_parts.of_chain import chain_geometry
-from .arm_parts.skeleton import glyph_radii, skeleton_nodes
+from ....groups import se3
+from ....groups.arrays import Array
+from ...kinematics import page_tips
+from ...nodes import Hung, Label, Layer, Node, Polyline, Role, Triangles
+from ...scene import SceneArm
+from ..arm import scene_arm
+from ..arm_parts.axes import axis_nodes, frame_nodes
+from ..arm_parts.geometry import ArmGeometry
+from ..arm_parts.of_chain import chain_geometry
+from ..arm_parts.skeleton import glyph_radii, skeleton_nodes
 from .exaggerated import Exaggerated
 
 FADED = 0.6
@@ -43,7 +43,7 @@ def second_nodes(
     second: Exaggerated,
     geometry: ArmGeometry,
     differing: dict[str, str],
-    ends: Iterable[str],
+    ends: Container[str],
     size: float,
 ) -> list[Node]:
     """Skeleton of the second arm; joints that differ with their axes and a label as the layer of

@@ -1,0 +1,38 @@
+"""A path of given configurations says what is hard on it, as one that was followed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import ShapeError
+from poekin.solve.path.joint_path import joint_path
+
+ARM = pk.load("panda").chain(tip="panda_hand")
+
+
+def test_a_path_that_was_followed_has_the_same_events_again():
+    T_s0 = ARM.fk([0, -0.5, 0, -2.0, 0, 1.6, 0.8])
+    T = pk.motion.line(T_s0, T_s0 @ pk.se3.exp([0, 0, 0.5, 0.1, 0, 0.1]), np.linspace(0, 1, 30))
+    times = np.linspace(0, 0.05, 30)
+    followed = pk.follow(ARM, T, times=times, speed=ARM.velocity_limits)
+    again = joint_path(ARM, followed.q, times)
+    assert followed.events
+    assert again.events == followed.events
+    assert again.summary().splitlines()[1:] == followed.summary().splitlines()[1:]
+    np.testing.assert_array_equal(again.solution.target, ARM.fk(followed.q))
+
+
+def test_without_times_there_are_no_rates():
+    path = joint_path(ARM, np.zeros((3, 7)))
+    assert path.rates is None
+    assert not path.speed_violations
+    assert path.ok
+    assert not path.branch_switches
+
+
+@pytest.mark.parametrize("q", [np.zeros(7), np.zeros((0, 7)), np.zeros((2, 5))])
+def test_what_is_no_list_of_configurations_is_refused(q):
+    with pytest.raises(ShapeError, match="7"):
+        joint_path(ARM, q)

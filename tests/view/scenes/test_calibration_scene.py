@@ -1,0 +1,63 @@
+"""The scene of a calibration: two arms at the same coordinates, and residuals as arrows."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.view.nodes import Cloud, Triangles
+from poekin.view.scenes.calibration import MOST, calibration_scene
+
+ARM = pk.load("ur5").chain()
+
+
+@pytest.fixture(scope="module")
+def found():
+    made = pk.calibration.simulated(ARM, 40, kind="points", seed=2)
+    return pk.calibrate(ARM, made.q, made.measurements, on_rank_deficiency="fix", folds=0)
+
+
+def test_both_arms_have_the_same_coordinates_and_the_calibrated_one_is_that_of_the_result(found):
+    scene = calibration_scene(found)
+    first, second = scene.arms
+    np.testing.assert_array_equal(scene.q, found.vectors.q[0])
+    np.testing.assert_array_equal(second.base, np.eye(4))
+    np.testing.assert_array_equal(second.factors[:-1], np.eye(6))
+    assert second.shift[-1] == scene.exaggerated > 1
+    assert [s.name for s in first.coordinates] == list(ARM.q_names)
+
+
+def test_arrows_go_from_the_measured_points_by_the_residuals_enlarged_as_the_words_say(found):
+    scene = calibration_scene(found)
+    v = found.vectors
+    (cloud,) = [n for n in scene.nodes if isinstance(n, Cloud)]
+    np.testing.assert_allclose(cloud.points, v.places - v.after, atol=1e-15)
+    (words,) = [w for w in scene.words if w.startswith("Residuals are drawn")]
+    k = float(words.split()[3])
+    (red,) = [n for n in scene.nodes if isinstance(n, Triangles) and n.hung.role == "differs"]
+    assert red.hung.name == f"residuals of the nominal arm × {k:g}"
+    tips = cloud.points + k * v.before
+    # each arrow ends at its tip
+    gaps = np.linalg.norm(red.vertices[:, None] - tips, axis=-1).min(axis=0)
+    assert gaps.max() < 1e-12
+
+
+def test_corrections_are_a_table_with_a_row_for_each_axis(found):
+    (table,) = calibration_scene(found).tables
+    assert [row[0] for row in table.rows] == list(ARM.joint_names)
+    assert {len(row) for row in table.rows} == {len(table.heads)}
+
+
+def test_a_calibration_out_of_a_file_is_drawn_without_residuals(found, tmp_path):
+    found.save(tmp_path / "arm.toml")
+    scene = calibration_scene(pk.calibration.load(tmp_path / "arm.toml"))
+    assert not [n for n in scene.nodes if n.hung.layer == "cloud"]
+    assert len(scene.arms) == 2
+
+
+def test_of_many_residuals_some_are_drawn():
+    made = pk.calibration.simulated(ARM, MOST + 100, seed=1)
+    many = pk.calibrate(ARM, made.q, made.measurements, folds=0)
+    (cloud,) = [n for n in calibration_scene(many).nodes if isinstance(n, Cloud)]
+    assert len(cloud.points) == MOST

@@ -1,0 +1,112 @@
+"""The scene of a path: the way of the tip, what is marked on it, and the rows that the page plays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import InputError
+from poekin.solve.path.joint_path import joint_path
+from poekin.view.nodes import Label, Polyline, Triangles
+from poekin.view.scenes.path import FRAMES, ROWS, SECONDS, path_scene
+
+ROBOT = pk.load("panda")
+ARM = ROBOT.chain(tip="panda_hand")
+LOW, HIGH = ARM.limits.T
+START = 0.5 * (LOW + HIGH)
+Q = START + np.linspace(0, 0.4, 50)[:, None] * np.ones(7)
+
+
+def marked(scene):
+    return [n for n in scene.nodes if n.hung.role == "marked" and n.hung.layer == "path"]
+
+
+def test_the_way_is_that_of_the_tip_and_the_page_plays_the_joints():
+    path = joint_path(ARM, Q, 0.1 * np.arange(50.0))
+    scene = path_scene(path)
+    (way,) = [n for n in scene.nodes if isinstance(n, Polyline) and n.hung.role == "path"]
+    np.testing.assert_allclose(way.points, ARM.fk(Q)[:, :3, 3], atol=1e-15)
+    np.testing.assert_array_equal(scene.motion.q, Q)
+    np.testing.assert_array_equal(scene.motion.times, 0.1 * np.arange(50.0))
+    np.testing.assert_array_equal(scene.q, Q[0])
+    arrows = [n for n in scene.nodes if isinstance(n, Triangles) and n.hung.name.startswith("pose")]
+    assert len(arrows) == 3 * FRAMES
+    assert "path" in scene.shown
+
+
+def test_in_its_robot_the_way_hangs_on_the_base_and_other_coordinates_rest():
+    scene = path_scene(joint_path(ARM, Q), ROBOT)
+    assert scene.arms[0].name == ROBOT.name
+    base = ROBOT.links.index(ARM.base)
+    assert {n.hung.link for n in scene.nodes if n.hung.layer == "path"} == {base}
+    assert [s.name for s in scene.arms[0].coordinates] == list(ROBOT.q_names)
+    index = [ROBOT.q_names.index(name) for name in ARM.q_names]
+    np.testing.assert_array_equal(scene.motion.q[:, index], Q)
+    rest = np.delete(scene.motion.q, index, axis=1)
+    assert rest.shape[1] == 1
+    assert not rest.any()
+    assert (scene.motion.times[0], scene.motion.times[-1]) == (0.0, SECONDS)
+
+
+def test_limits_and_singular_stretches_are_marked_where_they_are_with_their_sentences():
+    q = Q.copy()
+    q[10:21, 0] = HIGH[0]
+    q[30:33] = 0.0  # the Panda's elbow is stretched there, which its limits exclude
+    path = joint_path(ARM, q)
+    scene = path_scene(path)
+    kinds = {(m.first, m.last, m.kind, m.text) for m in scene.motion.marks}
+    assert kinds == {tuple(event) for event in path.events}
+    assert {"limit", "singular"} <= {m.kind for m in scene.motion.marks}
+    (limit,) = [n for n in marked(scene) if n.hung.name.startswith("poses 10 to 20")]
+    np.testing.assert_allclose(limit.points, ARM.fk(q[10:21])[:, :3, 3], atol=1e-15)
+
+
+def test_a_change_of_branch_is_a_ball_and_a_label_where_the_tip_is():
+    path = replace(joint_path(ARM, Q), branch_switches=(7,))
+    scene = path_scene(path)
+    ball, label = marked(scene)
+    assert isinstance(label, Label)
+    assert label.text == "branch changes before pose 7"
+    place = ARM.fk(Q[7])[:3, 3]
+    np.testing.assert_allclose(ball.vertices.mean(axis=0), place, atol=0.002)
+    assert [m.kind for m in scene.motion.marks] == ["switch"]
+
+
+def test_a_long_path_is_thinned_and_its_marks_stay_where_they_were():
+    count = 5 * ROWS
+    q = START + np.linspace(0, 0.4, count)[:, None] * np.ones(7)
+    q[6000:6100, 0] = HIGH[0]
+    path = replace(joint_path(ARM, q), branch_switches=(4321,))
+    motion = path_scene(path).motion
+    assert len(motion.q) <= ROWS + 2
+    np.testing.assert_array_equal(motion.q[[0, -1]], q[[0, -1]])
+    marks = {m.kind: m for m in motion.marks}
+    switch = marks["switch"].first
+    np.testing.assert_array_equal(motion.q[[switch - 1, switch]], q[[4320, 4321]])
+    at_limit = motion.q[marks["limit"].first : marks["limit"].last + 1, 0]
+    assert (at_limit == HIGH[0]).all()
+    assert len(at_limit) >= 19
+
+
+def test_poses_of_nan_are_passed_over():
+    T = ARM.fk(Q[:20])
+    T[5] = np.nan
+    path = pk.follow(ARM, T, q0=Q[0])
+    scene = path_scene(path)
+    assert len(scene.motion.q) == 19
+    assert np.isfinite(scene.motion.q).all()
+    assert np.isfinite(scene.motion.times).all()
+    assert [m.kind for m in scene.motion.marks] == ["missed"]
+    assert scene.motion.times[5] == 6 * SECONDS / 19
+    with pytest.raises(InputError, match="at least one finite pose"):
+        path_scene(pk.follow(ARM, T[5:6]))
+
+
+def test_the_way_of_a_part_of_a_robot_hangs_on_the_link_where_the_part_begins():
+    part = ROBOT.chain(base="panda_link2", tip="panda_hand")
+    scene = path_scene(joint_path(part, Q[:, 2:]), ROBOT)
+    links = {n.hung.link for n in scene.nodes if n.hung.layer == "path"}
+    assert links == {ROBOT.links.index("panda_link2")}
