@@ -8,8 +8,8 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from poekin.solve import svg
-from poekin.solve.svg import GRID, INK, PALE
+from poekin import svg
+from poekin.svg import GRID, INK, PALE
 
 from .page import plain
 from .report import Picture

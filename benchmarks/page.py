@@ -10,9 +10,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from typing import Any
 
+from poekin import html_page
 from poekin.errors import escape_unprintable
-from poekin.solve import html_page
-from poekin.solve.html_page import element, paragraph, text
+from poekin.html_page import element, paragraph, text
 
 from .report import Figure, Table, Topic, short
 

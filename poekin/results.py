@@ -10,6 +10,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from .html_page import element, text
+
 Progress = Callable[[int, int], None]
 """Called as progress(done, all) while a result is made."""
 
@@ -64,6 +66,9 @@ class Result:
 
     def __str__(self) -> str:
         return self.summary()
+
+    def _repr_html_(self) -> str:
+        return element("pre", text(self.summary()))
 
 
 def plain(value: object) -> object:

@@ -18,7 +18,7 @@ from typer import Context, Option
 from ..errors import FileError, InputError, UnknownName, quote, suggest
 from ..formats import vendors
 from ..formats.content import compressed, pipes
-from ..formats.content.robots import from_text
+from ..formats.content.robots import calibration_text, from_text, read_calibration
 from ..formats.load import load
 from ..formats.ros import packages
 from ..formats.vendors.calibration import FactoryCalibration
@@ -29,6 +29,9 @@ from ..model.robot import Robot
 STDIN = ("-", "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0")
 """Names of standard input."""
 STANDARD_INPUT = "standard input"
+
+_HOLD_ARMS = (*vendors.yaml_io.ENDINGS, ".gz", ".zip")
+NO_ARMS = "--arm: expected with a vendor's .yaml file, which holds several arms, one name for each"
 
 XACRO_HELP = "Evaluate each FILE that is xacro: this runs the expressions in it, so only do it with files you trust."
 Xacro = Annotated[bool, Option("--xacro", help=XACRO_HELP)]
@@ -49,9 +52,13 @@ Coupling = Annotated[
         "are; may be repeated.",
     ),
 ]
-NamedArm = Annotated[
-    str | None,
-    Option("--arm", metavar="NAME", help="The arm of a vendor's file that holds several: ARM_1."),
+NamedArms = Annotated[
+    list[str] | None,
+    Option(
+        "--arm",
+        metavar="NAME",
+        help="The arm of a vendor's file that holds several: ARM_1; of each file, or once for all.",
+    ),
 ]
 
 
@@ -60,15 +67,18 @@ class _Run:
     """Run of a command.
 
     Fields: arguments, the values of --xacro-arg, None without --xacro; coupling, those of
-    --coupling; arm, that of --arm; options, what parameters that are options are called; stdin,
-    what standard input was read for; digests, the SHA-256 of what came through a pipe, which can be
-    read once only, by the name of the argument.
+    --coupling; options, what parameters that are options are called; arms, those of --arm, and
+    arms_taken, how many files have taken one; arm_files, the arguments that may be files of several
+    arms and are not read yet; stdin, what standard input was read for; digests, the SHA-256 of what
+    came through a pipe, which can be read once only, by the name of the argument.
     """
 
     arguments: dict[str, str] | None = None
     coupling: Sequence[str] = ()
-    arm: str | None = None
     options: Mapping[str, str] = field(default_factory=dict)
+    arms: Sequence[str] = ()
+    arms_taken: int = 0
+    arm_files: list[str] = field(default_factory=list)
     stdin: str = ""
     digests: dict[str, str] = field(default_factory=dict)
 
@@ -109,28 +119,52 @@ def _loaded(file: str) -> Robot:
                 "--xacro: what is included is looked for from the file, and a pipe is none: give "
                 "the file, or evaluate it before the pipe (xacro FILE | poekin ... -)"
             )
-        return from_text(content, called(file))
+        of_arm = arm_calibration(file, content)
+        return of_arm.to_robot() if of_arm else from_text(content, called(file))
     path = os.fspath(packages.local_path(file))
     if arguments is not None and os.path.isfile(path) and is_xacro(path):
         return evaluate_xacro(path, **arguments)
-    of_arm = arm_calibration(path)
-    if of_arm is not None:
-        return of_arm.to_robot()
-    return load(file)
+    of_arm = arm_calibration(file)
+    return of_arm.to_robot() if of_arm else load(file)
 
 
-def arm_calibration(path: str) -> FactoryCalibration | None:
+def arm_calibration(file: str, piped: bytes = b"") -> FactoryCalibration | None:
     """Calibration of the arm that --arm names in a vendor's file; None of other files, or without
-    it.
+    it. Raises: InputError where no other file is left for an arm.
     """
-    name = _run().arm
-    if name is None or not _is_vendors(path):
+    run = _run()
+    if file not in run.arm_files:
         return None
-    return vendors.read(path, arm=name)
+    run.arm_files.remove(file)
+    name = called(file)
+    if piped:
+        content = compressed.decompress(piped, name)
+    else:
+        content = compressed.read(packages.local_path(file))
+    text = calibration_text(content, name)
+    found = None
+    if text is not None:
+        arms = run.arms if len(run.arms) == 1 else run.arms[run.arms_taken :]
+        found = read_calibration(text, name, next(iter(arms), None))
+        run.arms_taken += 1
+    if not run.arm_files and run.arms_taken < len(run.arms):
+        raise InputError(NO_ARMS)
+    return found
 
 
-def _is_vendors(path: str) -> bool:
-    return path.lower().endswith(vendors.yaml_io.ENDINGS) and not compressed.split(path)[1]
+def _may_hold_arms(file: str) -> bool:
+    in_archive = bool(compressed.split(file)[1])
+    return in_archive or file.lower().endswith(_HOLD_ARMS) or file in STDIN or pipes.is_pipe(file)
+
+
+def _arm_files(options: Mapping[str, Any], arms: Sequence[str]) -> list[str]:
+    """Arguments of a command with --arm that may be files of several arms. Raises: InputError."""
+    words = [str(options.get(name, "")) for name in ("file", "a", "b", "calibration")]
+    words += options.get("files") or ()
+    files = list(filter(_may_hold_arms, words))
+    if len(files) < len(arms):
+        raise InputError(NO_ARMS)
+    return files
 
 
 def called(file: str) -> str:
@@ -215,12 +249,11 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
 
     @functools.wraps(command)
     def run(**options: Any) -> None:
+        arms = options["arm"]
         record = _run_of(**{name: options.pop(name) for name in more})
         named = record.options
-        if record.arm is not None and not any(map(_is_vendors, map(str, options.values()))):
-            raise InputError(
-                "--arm: expected with a vendor's .yaml file, not compressed, which holds several arms"
-            )
+        if arms:
+            record.arm_files = _arm_files(options, arms)
         _check_no_option(options.get("q") or options.get("words") or (), named.values())
         before = _current.set(record)
         try:
@@ -243,14 +276,14 @@ def _run_of(
     xacro: Xacro = False,
     xacro_arg: Given = None,
     coupling: Coupling = None,
-    arm: NamedArm = None,
+    arm: NamedArms = None,
 ) -> _Run:
     """Run with these options. Raises: InputError."""
     if xacro_arg and not xacro:
         raise InputError("--xacro-arg: expected together with --xacro only")
     arguments = dict(map(_pair, xacro_arg or ())) if xacro else None
     words = {p.name: p.opts[-1] for p in context.command.params if p.opts[-1].startswith("--")}
-    return _Run(arguments, coupling or (), arm, words)
+    return _Run(arguments, coupling or (), words, arm or ())
 
 
 def _pair(text: str) -> tuple[str, str]:

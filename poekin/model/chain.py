@@ -23,6 +23,7 @@ from .methods.chain_derivatives import ChainDerivatives
 from .methods.entrances import ChainEntrances
 from .methods.frames import ChainFrames
 from .methods.peer_names import OF_CHAINS, answer_peer_names
+from .methods.pictures import ChainPictures
 from .methods.pose_coordinates import ChainCoordinates
 
 # Names looked up once: one call for a pose and a Jacobian takes about a microsecond in all.
@@ -35,7 +36,7 @@ _pose_one = chain_kernels.pose_one
 _pose_jacobian_one = chain_kernels.pose_jacobian_one
 
 
-class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
+class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates, ChainPictures):
     """Serial chain f(q) = e^{A_1 x_1} ... e^{A_n x_n} M with x = C q + c.
 
     f(q) is the pose of the tip in the base frame. Revolute, prismatic and helical joints differ
@@ -362,7 +363,8 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
         """Configurations drawn uniformly within the limits.
 
         A coordinate without limits is drawn from one turn, or 1 m either way, of the joint that it
-        moves fastest. Joints are within their own limits, `joint_limits`, too.
+        moves fastest, about 0 or, where joints do not get there otherwise, about the middle of
+        their own limits. Joints are within their own limits, `joint_limits`, too.
 
         Parameters
         ----------

@@ -16,6 +16,7 @@ from .methods.peer_names import OF_CHAINS, OF_ROBOTS, no_attribute
 from .provenance import Source
 from .readings.coupled import with_readings
 from .readings.statements import Statements, make_statements
+from .show.tables import robot_table
 from .tree.all_poses import all_poses
 from .tree.chain_between import chain_between, only_leaf
 from .tree.coupling import warn_of_torn_limits
@@ -340,6 +341,9 @@ class Robot:
         # Not __getstate__: Python 3.11.2 puts one of its own over that of a frozen dataclass with
         # slots.
         return _rebuilt, (*self._data(), self.source)
+
+    def _repr_html_(self) -> str:
+        return robot_table(self.name, self.joints)
 
     def __repr__(self) -> str:
         leaves = ", ".join(map(quote, self.leaves[:3]))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..groups.arrays import Array
 from .chain_data import ChainData
-from .readings.coupled import beyond_own_limits
+from .readings.coupled import beyond_own_limits, sum_limits
 
 DRAWS = 10_000
 """Draws of a configuration after which there is hardly any."""
@@ -44,36 +45,68 @@ def sampling_range(chain: ChainData) -> tuple[Array, Array]:
     has_upper = np.isfinite(upper)
     low = np.where(has_lower, lower, np.where(has_upper, upper - 2 * half, -half))
     high = np.where(has_upper, upper, np.where(has_lower, lower + 2 * half, half))
+    _move_to_joint_limits(chain, low, high)
     return low, high
+
+
+def _move_to_joint_limits(chain: ChainData, low: Array, high: Array) -> None:
+    """Moves ranges of coordinates without limits to where the joints are in the middle of their own,
+    where they do not reach that.
+
+    Of the coordinates that a joint follows the one is moved that the fewest limited joints follow.
+    """
+    limited = np.isfinite(chain.joint_limits).any(axis=1)
+    C = chain.coupling
+    free = np.isinf(chain.limits).all(axis=1)
+    shared = np.count_nonzero(C[limited], axis=0)
+    for j in np.flatnonzero(limited):
+        (ends,) = sum_limits(C[j : j + 1], np.stack([low, high], axis=1)) + chain.offset[j]
+        middle = chain.joint_limits[j].mean()
+        if np.isinf(middle):
+            middle = np.clip(ends.mean(), *chain.joint_limits[j])
+        moving = np.flatnonzero(free & (C[j] != 0))
+        if len(moving) and not ends[0] <= middle <= ends[1]:
+            k = moving[np.argmin(shared[moving])]
+            moved = (middle - ends.mean()) / C[j, k]
+            low[k] += moved
+            high[k] += moved
 
 
 def half_range(chain: ChainData) -> Array:
     """Greatest value (m,) that `random` draws of coordinates without limits; the least is its
     opposite.
     """
-    motions = [np.pi if chain.is_angle(k) else 1.0 for k in range(chain.dof)]
-    return np.array(motions) / joint_ratios(chain)
+    return np.where(angle_mask(chain), np.pi, 1.0) / joint_ratios(chain)
 
 
 def radians_per_unit(chain: ChainData) -> Array:
     """Radians (m,) by which the joint that a coordinate moves most turns with its unit; 0 for a
     length.
     """
-    angles = [chain.is_angle(k) for k in range(chain.dof)]
-    return np.where(angles, np.pi / half_range(chain), 0.0)
+    return np.where(angle_mask(chain), np.pi / half_range(chain), 0.0)
+
+
+def angle_mask(chain: ChainData) -> NDArray[np.bool_]:
+    """Whether each coordinate (m,) is an angle."""
+    return np.array([chain.is_angle(k) for k in range(chain.dof)], bool)
 
 
 def joint_ratios(chain: ChainData) -> Array:
     """Radians or metres (m,) by which the joint that a coordinate moves most goes with its unit."""
-    return np.array([abs(dominant_ratio(chain, k)) for k in range(chain.dof)])
+    return np.abs(dominant_ratios(chain))
 
 
-def dominant_ratio(chain: ChainData, k: int) -> float:
-    """Ratio of largest size to coordinate k, of joints that turn where it is an angle and slide
-    where not.
+def dominant_ratios(chain: ChainData) -> Array:
+    """Ratios (m,) of largest size to each coordinate, of joints that turn where it is an angle and
+    slide where not.
     """
+    found = np.ones(chain.dof)
+    C = chain.nontrivial_coupling
+    if C is None:
+        return found
     slides = np.array(chain.kinds) == "prismatic"
-    ratios = chain.coupling[slides != chain.is_angle(k), k]
-    if not ratios.any():
-        return 1.0
-    return float(ratios[np.argmax(np.abs(ratios))])
+    for k, is_angle in enumerate(angle_mask(chain)):
+        ratios = C[slides != is_angle, k]
+        if ratios.any():
+            found[k] = ratios[np.argmax(np.abs(ratios))]
+    return found

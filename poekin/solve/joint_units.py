@@ -16,7 +16,7 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.kinematics.compiled import CompiledChain
 from ..model.readings.coupled import own_limits, reading_limits
-from ..model.sampling import dominant_ratio
+from ..model.sampling import dominant_ratios
 from .chain_cache import ChainCache
 
 MOST_TURNS = 12
@@ -76,12 +76,8 @@ def _joint_units(fast: CompiledChain, locked: bool) -> JointUnits:
     chain = fast.chain
     C = chain.coupling
     if not locked and _sums_imply_limits(chain):
-        limits = own_limits(chain) - chain.offset[:, None]
-        own = chain.replace(
-            coupling=None, q_names=chain.joint_names, limits=limits, joint_limits=None
-        )
-        return JointUnits(own.compile(), C)
-    scale = np.array([dominant_ratio(chain, k) for k in range(chain.dof)])
+        return in_joints(chain)
+    scale = dominant_ratios(chain)
     if (scale == 1.0).all():
         return JointUnits(fast, None)
     limits = np.sort(chain.limits * scale[:, None], axis=1)
@@ -89,13 +85,27 @@ def _joint_units(fast: CompiledChain, locked: bool) -> JointUnits:
     return JointUnits(scaled.compile(), np.diag(scale))
 
 
+def in_joints(chain: Chain) -> JointUnits:
+    """The arm as a function of its joints' own values, less their offsets, within their own limits."""
+    limits = own_limits(chain) - chain.offset[:, None]
+    own = chain.replace(coupling=None, q_names=chain.joint_names, limits=limits, joint_limits=None)
+    return JointUnits(own.compile(), chain.coupling)
+
+
+def has_sums(chain: Chain) -> bool:
+    """Whether joints are sums of coordinates, which they determine."""
+    C = chain.coupling
+    sums = np.count_nonzero(C, axis=1) > 1
+    return bool(sums.any() and np.linalg.matrix_rank(C) == max(C.shape))
+
+
 def _sums_imply_limits(chain: Chain) -> bool:
     """Whether joints that are sums of coordinates are as good coordinates, as their limits imply
     those of the given ones.
     """
-    C = chain.coupling
-    if (np.count_nonzero(C, axis=1) <= 1).all() or np.linalg.matrix_rank(C) < max(C.shape):
+    if not has_sums(chain):
         return False
+    C = chain.coupling
     lower, upper = reading_limits(C, own_limits(chain) - chain.offset[:, None]).T
     low, high = chain.limits.T
     return bool(np.all((lower >= low - SAME) & (upper <= high + SAME)))

@@ -16,22 +16,21 @@ from .scene_json import scene_json
 
 SCRIPTS = (
     "mathematics",
-    "elements",
+    "panel/elements",
     "labels",
     "drawing",
-    "sliders",
-    "numbers",
-    "panel",
+    "panel/sliders",
+    "panel/numbers",
+    "panel/panel",
     "drag",
-    "play",
+    "panel/play",
     "main",
 )
 """Files of the page's own JavaScript, in the order in which the page holds them."""
 
 _HEAD = """<meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline' \
-'unsafe-eval' blob:; style-src 'unsafe-inline'; img-src data: blob:; \
-font-src data:; \
+'unsafe-eval' blob:; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; \
 connect-src data: blob:; worker-src blob:">
 <link rel="icon" href="data:,">
 <title>$TITLE</title>
@@ -62,6 +61,13 @@ class Page:
         Title of the page.
     html : str
         The whole page. The same scene gives the same text.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> page = pk.view(pk.load("ur5e"))
+    >>> page.title, len(page.html) < 2_000_000
+    ('ur5e', True)
     """
 
     title: str

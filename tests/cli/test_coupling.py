@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.solve.motion.trajectory.trajectory import Trajectory
 
 ARM = pk.load("puma560").chain()
 SAID = ("--coupling", "J3 = J2 + J3")
@@ -102,6 +103,21 @@ def test_the_fastest_trajectory_of_a_coupled_arm_is_one_of_its_readings(poekin, 
     assert "joint3" in place.read_text()
 
 
+def test_a_trajectory_with_a_joint_beyond_its_own_limits_is_exit_code_1(
+    poekin, tmp_path, monkeypatch
+):
+    coupled = ARM.coupled("J3 = J2 + J3")
+    q = np.array(READINGS) - np.linspace(0, 0.3, 5)[:, None]
+    poses = tmp_path / "T.csv"
+    np.savetxt(poses, coupled.fk(q).reshape(5, 16), delimiter=",")
+    monkeypatch.setattr(Trajectory, "joints_beyond_limits", np.array([0, 0, 0.1, 0, 0, 0]))
+    asked = ("--format", "matrix", "--fastest", "--acceleration", 5, "--speed", 1)
+    words = (*SAID, "--q0", ",".join(map(str, READINGS)), "--output", tmp_path / "t.csv")
+    code, out, _ = poekin("follow", "puma560", "--input", poses, *asked, *words)
+    assert code == 1
+    assert "joint 'joint3' leaves its own limits by 0.1 (rad or m)" in out
+
+
 def test_two_statements_are_two_options_and_do_not_last(poekin):
     words = ("--coupling", "J3 = J3 - J2", "--coupling", "J5 = J5 + 1/80 J4")
     _, out, _ = poekin("fk", "puma560", *READINGS, *words, "--json")
@@ -159,3 +175,17 @@ def test_what_is_no_coupling_is_refused_and_nothing_is_written(
     assert err.startswith(f"poekin: error: --coupling: {message}")
     assert err.count("\n") == 1
     assert not place.exists()
+
+
+def test_joints_beyond_their_own_limits_are_told_where_readings_are_within_theirs(poekin):
+    beyond = [0.1, -0.5, 1.5, 0.3, 0.4, 0.2]  # joint 3 is at 1.0, of at most 0.785
+    code, _, err = poekin("fk", "puma560", *beyond, *SAID)
+    assert (code, err) == (
+        0,
+        "poekin: warning: joint joint3 = 1 rad is outside its own limits, -3.92699 to 0.785398; "
+        "are these degrees? --deg says so\n",
+    )
+    assert poekin("fk", "puma560", *READINGS, *SAID)[2] == ""
+    degrees = np.degrees(beyond).round(9)
+    err = poekin("fk", "puma560", *degrees, *SAID, "--deg")[2]
+    assert err.endswith("joint joint3 = 57.2958 deg is outside its own limits, -225 to 45\n")

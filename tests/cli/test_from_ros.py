@@ -39,8 +39,10 @@ NAMESPACE = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 
 
 @pytest.fixture
-def shell(tmp_path):
-    """Run a line in a directory with the page's files, and with its programs on the path."""
+def shell(tmp_path, poekin, monkeypatch):
+    """Run a line in a directory with the page's files, and with its programs on the path; what is
+    piped into poekin is read in this process.
+    """
     programs = tmp_path / "programs"
     programs.mkdir()
     for name in ("ros2", "rosparam"):
@@ -51,7 +53,10 @@ def shell(tmp_path):
             if program == name:
                 cases.append(f"'{rest}') cat '{programs}/{k}.txt';;")
         _program(programs / name, "\n".join(['case "$*" in', *cases, "*) exit 3;;", "esac"]))
-    _program(programs / "poekin", f"exec '{sys.executable}' -m poekin.cli \"$@\"")
+    itself = f"exec '{sys.executable}' -m poekin.cli \"$@\""
+    kept = 'printf "%s\\n" "$@" > words; exec cat > piped'
+    # what is behind <( ) ends with the line, and has to be read in it
+    _program(programs / "poekin", f'case "$*" in */dev/fd/*) {itself};; *) {kept};; esac')
     _program(programs / "xacro", f"exec '{sys.executable}' -c 'import xacro; xacro.main()' \"$@\"")
     (tmp_path / "factory.urdf").write_text(DESCRIPTION)
     arm = DESCRIPTION.replace("<robot ", f"<robot {NAMESPACE} ", 1)
@@ -59,13 +64,24 @@ def shell(tmp_path):
     environment = os.environ | {"PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"}
 
     def run(line: str) -> subprocess.CompletedProcess:
-        return subprocess.run(
+        done = subprocess.run(
             ["bash", "-c", line],
             cwd=tmp_path,
             env=environment,
+            stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
             timeout=300,
+        )
+        words = tmp_path / "words"
+        if not words.exists():
+            return done
+        monkeypatch.chdir(tmp_path)
+        with open(tmp_path / "piped", encoding="utf-8") as piped:
+            monkeypatch.setattr(sys, "stdin", piped)
+            code, out, err = poekin(*words.read_text().splitlines())
+        return subprocess.CompletedProcess(
+            line, done.returncode or code, done.stdout + out, done.stderr + err
         )
 
     return run

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import gzip
+import io
+import json
+import sys
 import zipfile
 
 import pytest
@@ -91,6 +95,38 @@ def test_an_arm_of_a_file_that_holds_several_is_a_model_and_a_calibration(poekin
     assert compared == [3, 0]  # a base 1 mm higher is another convention
 
 
+TWICE = ("--arm", "ARM_1", "--arm", "ARM_2")
+
+
+def test_two_arms_of_one_file_are_compared_by_two_names(poekin, tmp_path):
+    path = tmp_path / "two.yaml"
+    path.write_text(TWO_ARMS, encoding="utf-8")
+    for words, expected in ((TWICE, 3), (("--arm", "ARM_1"), 0), (("--arm", "ARM_2"), 0)):
+        assert poekin("compare", path, path, *words)[0] == expected
+    code, out, _ = poekin("compare", path, path, *TWICE, "--json")
+    assert (code, json.loads(out)["base"][2][3]) == (3, pytest.approx(-0.001, abs=1e-9))
+    code, out, _ = poekin("compare", path, path, *TWICE[2:], *TWICE[:2], "--json")
+    assert (code, json.loads(out)["base"][2][3]) == (3, pytest.approx(0.001, abs=1e-9))
+
+
+def test_an_arm_is_named_in_a_file_that_is_compressed_or_a_pipe(poekin, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    content = TWO_ARMS.encode()
+    (tmp_path / "two.yaml.gz").write_bytes(gzip.compress(content))
+    with zipfile.ZipFile("two.zip", "w") as archive:
+        archive.writestr("two.yaml", content)
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(content)))
+    for name in ("two.yaml.gz", "two.zip/two.yaml", "-"):
+        code, urdf, _ = poekin("urdf", name, "--arm", "ARM_2")
+        assert code == 0
+        assert pk.from_text(urdf).joints[0].origin[2, 3] == 0.156
+    assert poekin("compare", "two.zip/two.yaml", "two.yaml.gz", *TWICE)[0] == 3
+    assert poekin("urdf", "two.yaml.gz", "--arm", "ARM_1", "--output", "one.urdf")[0] == 0
+    assert poekin("apply", "one.urdf", "two.yaml.gz", "--arm", "ARM_2", "-o", "out.urdf")[0] == 0
+    (tmp_path / "one.urdf.gz").write_bytes(gzip.compress((tmp_path / "one.urdf").read_bytes()))
+    assert poekin("compare", "one.urdf.gz", "two.yaml.gz", "--arm", "ARM_1")[0] == 0
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -100,7 +136,14 @@ def test_an_arm_of_a_file_that_holds_several_is_a_model_and_a_calibration(poekin
         ),
         (["info", "two.yaml", "--arm", "ARM_3"], "and got 'ARM_3'"),
         (["info", "ur5e", "--arm", "ARM_1"], "--arm: expected with a vendor's .yaml file"),
-        (["info", "two.zip/two.yaml", "--arm", "ARM_1"], "a vendor's .yaml file, not compressed"),
+        (["info", "two.zip/two.yaml"], "and none was named"),
+        (["info", "one.urdf.gz", "--arm", "ARM_1"], "--arm: expected with a vendor's .yaml file"),
+        (
+            ["compare", *["two.yaml"] * 2, *["--arm", "ARM_1"] * 3],
+            "several arms, one name for each",
+        ),
+        (["compare", "two.yaml", "one.urdf.gz", *TWICE], "--arm: expected with a vendor's"),
+        (["fk", "ur5e", "--arm", "ARM_1", "--input", "-"], "--arm: expected with a vendor's"),
         (["apply", "ur5e", "two.yaml", "-o", "out.urdf"], "and none was named"),
     ],
     ids=lambda x: " ".join(x) if isinstance(x, list) else "",
@@ -112,5 +155,12 @@ def test_an_arm_that_is_not_named_or_not_there_is_refused(
     (tmp_path / "two.yaml").write_text(TWO_ARMS, encoding="utf-8")
     with zipfile.ZipFile("two.zip", "w") as archive:
         archive.write("two.yaml")
+    (tmp_path / "one.urdf.gz").write_bytes(
+        gzip.compress(b"<robot name='a'><link name='b'/></robot>")
+    )
     assert message in refused(*words)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["two.yaml", "two.zip"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "one.urdf.gz",
+        "two.yaml",
+        "two.zip",
+    ]

@@ -227,7 +227,7 @@ def position_gradient(chain, q):
     return chain.jacobian(q, "hybrid")[..., 3:, :]
 
 
-@pytest.mark.parametrize("name", ["panda", "coupled", "mixed"])
+@pytest.mark.parametrize("name", ["coupled", "mixed"])
 def test_jax_batches_maps_compiles_and_differentiates_it(name):
     jax = pytest.importorskip("jax", reason="needs JAX")
     before = jax.config.jax_enable_x64

@@ -443,8 +443,8 @@ def test_a_robot_knows_where_it_was_read_from():
     assert (source.name, source.link_lines, source.joint_lines) == ("f", (1, 1, 1, 1), (2, 3, 4))
 
 
-def test_a_chain_of_a_hundred_thousand_links_is_read():
-    count = 100_000
+def test_a_chain_of_twenty_thousand_links_is_read():
+    count = 20_000
     parts = [f'<link name="l{i}"/>' for i in range(count)]
     parts += [
         f'<joint name="j{i}" type="fixed"><parent link="l{i}"/><child link="l{i + 1}"/><origin xyz="0 0 1e-3"/></joint>'

@@ -528,11 +528,11 @@ def test_one_call_and_a_batch_give_the_same_bits():
         np.testing.assert_allclose(one[1], J[k], rtol=0, atol=1e-15)
 
 
-def test_a_hundred_thousand_joints_make_a_chain():
-    n = 100_000
+def test_twenty_thousand_joints_make_a_chain():
+    n = 20_000
     chain = pk.Chain.from_space(np.tile(PX, (n, 1)), np.eye(4))
     assert chain.dof == n
-    assert chain.fk(np.full(n, 1e-3))[0, 3] == pytest.approx(100)
+    assert chain.fk(np.full(n, 1e-3))[0, 3] == pytest.approx(20)
 
 
 def test_coordinates_without_limits_are_drawn_from_a_turn_or_a_metre_of_their_fastest_joint():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from poekin.solve import svg
+from poekin import svg
 
 
 @pytest.fixture

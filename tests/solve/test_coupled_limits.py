@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.model.readings.coupled import beyond_own_limits
+from poekin.solve.ik.joint_domain import make_joint_domain
+from poekin.solve.joint_units import joint_units
 
 ARM = pk.load("puma560").chain()
 SAID = {
@@ -125,6 +128,21 @@ def narrow(chain, least, most):
     return chain.replace(limits=limits)
 
 
+@pytest.mark.parametrize("side", [0, 1], ids=["lower", "upper"])
+def test_every_pose_is_reached_within_limits_of_a_reading_that_are_narrower_on_one_side_alone(side):
+    wide = ARM.coupled("J3 = J2 + J3")
+    ends = wide.limits[2].copy()
+    ends[side] = -1.5
+    chain = narrow(wide, *ends)
+    T = chain.fk(chain.random(3, 100))
+    found = pk.ik(chain, T)
+    assert found.success.all()
+    assert own(chain, found.q).all()
+    assert (ends[0] <= found.q[:, 2]).all()
+    assert (found.q[:, 2] <= ends[1]).all()
+    np.testing.assert_allclose(chain.fk(found.q) - T, 0, atol=1e-8)
+
+
 def test_of_solutions_whole_turns_apart_those_within_all_limits_are_counted_and_none_is_lost():
     turn = 2 * np.pi
     wide = ARM.replace(limits=[[-turn, turn]] * 6)
@@ -184,3 +202,116 @@ def test_no_reading_steps_farther_than_is_said(chain):
     path = pk.follow(chain, ARM.fk(x), q0=q0, max_step=np.full(6, 0.02))
     assert path.ok
     assert (np.abs(np.diff(path.q, axis=0)) <= 0.02).all()
+
+
+def reaching(chain, count=80):
+    """Positions along which joint 3 alone would go beyond its limit, and where they start."""
+    x0 = np.array([0.2, 0.5, UPPER[2] - 0.1, 0.1, 0.8, 0.3])
+    q0 = np.linalg.solve(chain.coupling, x0)
+    way = chain.jacobian(q0, "hybrid")[3:, 2]
+    T = np.tile(chain.fk(q0), (count, 1, 1))
+    T[:, :3, 3] += np.linspace(0, 0.14, count)[:, None] * way / np.linalg.norm(way)
+    return T, q0
+
+
+def test_a_path_slides_along_a_joint_s_own_limit_where_what_it_follows_is_locked():
+    tool = pk.se3.exp([0, 0, 0, 0.1, 0.05, 0.3])
+    chain = ARM.retooled(tool).coupled("J3 = J2 + J3")
+    T, q0 = reaching(chain)
+    path = pk.follow(chain, T, q0=q0, task="position", lock={"joint2": q0[1]})
+    assert path.ok
+    assert own(chain, path.q).all()
+    assert not path.at_limits
+    (met,) = path.joints_at_limits
+    assert (met.name, met.last, met.bound) == ("joint3", len(T) - 1, UPPER[2])
+    assert met.first > 0
+    assert "joint 'joint3' at its own limit 0.785398" in str(path)
+    assert path.to_dict()["joints_at_limits"]
+    free = pk.follow(chain, T, q0=q0, task="position", lock={"joint2": q0[1]}, limits=False)
+    assert free.joint_limits is None
+    assert free.joints_at_limits == ()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_path_slides_along_a_joint_s_own_limit_where_those_of_readings_are_narrower(seed):
+    rng = np.random.default_rng(seed)
+    tool = pk.se3.exp([0, 0, 0, 0.1, 0.05, 0.3])
+    chain = ARM.retooled(tool).coupled("J3 = J2 + J3")
+    T, q0 = reaching(chain)
+    T[:, :3, 3] += np.linspace(0, 0.02, len(T))[:, None] * rng.normal(size=3)
+    limits = chain.limits.copy()
+    limits[1] = q0[1] - 0.05, q0[1] + 0.05
+    limits[2] = -3.0, 1.5
+    chain = chain.replace(limits=limits)
+    path = pk.follow(chain, T, q0=q0, task="position")
+    assert path.ok
+    assert path.largest_step < 0.05
+    assert own(chain, path.q).all()
+    assert ((path.q >= limits[:, 0]) & (path.q <= limits[:, 1])).all()
+    assert [met.name for met in path.joints_at_limits] == ["joint3"]
+    # Within the reading's limits alone the same path leaves joint 3's.
+    wide = chain.replace(joint_limits=None)
+    assert not own(chain, pk.follow(wide, T, q0=q0, task="position").q).all()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_locked_readings_leave_of_joints_limits_is_the_domain_of_the_others(seed):
+    rng = np.random.default_rng(seed)
+    limits = ARM.limits.copy()
+    limits[5] = -0.3, 0.2
+    arm = ARM.replace(limits=limits)
+    chain = arm.coupled(["J3 = J2 + 2 J3", "J4 = 3 J4 - J3", "J6 = J6 - 1/2 J5"])
+    narrow = chain.limits * rng.uniform(0.1, 1, (6, 1))
+    chain = chain.replace(limits=narrow)
+    lock = tuple((name, 0.3 * chain.random(rng)[k]) for name, k in (("joint2", 1), ("joint6", 5)))
+    units = joint_units(chain.compile(), True)
+    domain = make_joint_domain(units, lock, True)
+    x = domain.held(np.zeros(6))
+    assert (domain.limits[:, 0] <= domain.limits[:, 1]).all()
+    fast = units.fast.chain
+    # Joint 4 follows two that are free: what it leaves of them is no box.
+    asked = np.arange(6) != 3
+    for k in (2, 4):
+        for end, beyond in zip(domain.limits[k], (-1e-9, 1e-9), strict=True):
+            x[k] = end
+            assert not beyond_own_limits(fast, x)[asked].any()
+            x[k] += beyond
+            out = (x < fast.limits[:, 0]) | (x > fast.limits[:, 1])
+            assert (beyond_own_limits(fast, x)[asked] | out[asked]).any()
+        x[k] = 0.0
+
+
+def test_readings_that_cannot_keep_a_joint_s_limits_beside_what_is_locked_have_their_own():
+    chain = narrow(ARM.coupled("J3 = J2 + J3"), -0.1, 0.1)
+    units = joint_units(chain.compile(), True)
+    domain = make_joint_domain(units, (("joint2", 1.5),), True)
+    np.testing.assert_array_equal(domain.limits[2], [-0.1, 0.1])
+    found = pk.ik(chain, chain.fk([0.1, 1.5, 0.05, 0.2, 0.3, 0.4]), lock={"joint2": 1.5})
+    assert found.reason == "limits"
+
+
+def test_limits_of_joints_that_no_reading_beside_what_is_locked_can_keep_are_told():
+    chain = ARM.coupled("J3 = J2 + J3")
+    other = chain.replace(limits=[[-np.inf, np.inf]] * 6, joint_limits=LOWER_UPPER)
+    q = np.array([0.1, UPPER[1] + 0.1, 0.2, 0.1, 0.2, 0.3])  # joint 2 itself is beyond
+    found = pk.ik(other, other.fk(q), lock={"joint2": q[1]})
+    assert not found.success
+    assert "joint2" in found.limits_hit[0]
+
+
+def test_a_trajectory_that_takes_a_joint_beyond_its_own_limits_says_so():
+    names = ["a", "b"]
+    slides = [pk.screw.prismatic([1, 0, 0]), pk.screw.prismatic([0, 1, 0])]
+    table = pk.Chain.from_space(slides, np.eye(4), limits=[[0, 2.0], [0, 1]], joint_names=names)
+    chain = table.coupled("b = a + b")
+    x = np.array([[0.0, 0], [1, 1], [2, 1]])
+    q = np.linalg.solve(chain.coupling, x.T).T
+    found = pk.motion.time_optimal(chain, q, speed=1.0, acceleration=1.0)
+    assert found.beyond_limits.tolist() == [0, 0]
+    # The readings go 1 and sqrt 2: b of 0, 1, 1 there is s (2 + sqrt 2 - s) / (1 + sqrt 2), at most
+    # (1 + sqrt 2) / 2.
+    np.testing.assert_allclose(found.joints_beyond_limits, [0, (np.sqrt(2) - 1) / 2], rtol=1e-4)
+    assert "joint 'b' leaves its own limits by 0.207 (rad or m)" in found.summary()
+    inside = pk.motion.time_optimal(chain, q[:2], speed=1.0, acceleration=1.0)
+    assert inside.joints_beyond_limits.tolist() == [0, 0]
+    assert "leaves" not in inside.summary()

@@ -7,6 +7,7 @@ it a folder: `formats/dh/`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path, PurePosixPath
@@ -31,12 +32,19 @@ def test(name: str) -> str:
 
 
 def _only(top: str, name: str, file: str) -> str:
-    pattern = (name[:-1] if name.endswith("/") else file).replace("/", "/**/")
-    found = sorted({path.relative_to(ROOT).as_posix() for path in (ROOT / top).glob(pattern)})
+    parts = (name[:-1] if name.endswith("/") else file).split("/")
+    pattern = re.compile(f"{top}/" + "/(?:.*/)?".join(map(re.escape, parts)))
+    found = [path for path in _listed(ROOT, top) if pattern.fullmatch(path)]
     if len(found) != 1:
         places = ", ".join(found) or "none"
         raise ValueError(f"{name} has to be one place below {top}/, and is {places}")
     return found[0]
+
+
+@cache
+def _listed(root: Path, top: str) -> list[str]:
+    """All files and folders below one of the root's."""
+    return sorted(path.relative_to(root).as_posix() for path in (root / top).rglob("*"))
 
 
 def argument(word: str) -> str:

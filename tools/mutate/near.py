@@ -87,7 +87,7 @@ NEAR = {
     "solve/calibrate": "solve/cross_validation own solve/refusals solve/fitting solve/toml_io",
     "solve/calibration": "solve/html_report solve/calibrate solve/toml_io solve/fitting",
     "solve/losses": "solve/noise solve/fitting solve/refit solve/exchange",
-    "solve/html_page": "own solve/html_report",
+    "html_page": "own solve/html_report",
     "solve/last_result": "own solve/fitting",
     "checks": "own model/refusals solve/refusals solve/choose analysis/axes",
     "solve/reweighted solve/flatness": "own solve/initial_guess_parts solve/initial_guess",

@@ -12,6 +12,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator
 from enum import Enum
+from fnmatch import fnmatchcase
 from functools import cache
 from pathlib import Path
 
@@ -75,6 +76,8 @@ WHOLE = {
     "analysis/": "analysis/ cli/",
     "solve/": "solve/ cli/",
     "solve/calibration/": "solve/calibration/ cli/calibrate",
+    "html_page svg": "html_page solve/ view/",
+    "view/": "view/ cli/",
     "testing/": f"testing/ groups/ {CHAINS} cli/conform cli/validate",
     "cli/": "cli/",
 }
@@ -165,11 +168,20 @@ def _own_tests(path: str) -> Iterator[str]:
 def _nearest(folders: list[str], pattern: str) -> list[str]:
     """Files of tests with such a name in the innermost folder around a module that has any."""
     for k in range(len(folders), -1, -1):
-        folder = TESTS.joinpath(*folders[:k])
-        found = sorted(folder.rglob(pattern) if k else folder.glob(pattern))
+        folder = "/".join(["tests", *folders[:k], ""])
+        below = [file for file in _test_files() if file.startswith(folder)]
+        if k == 0:
+            below = [file for file in below if file.count("/") == 1]
+        found = [file for file in below if fnmatchcase(file.rpartition("/")[2], pattern)]
         if found:
-            return [file.relative_to(ROOT).as_posix() for file in found]
+            return found
     return []
+
+
+@cache
+def _test_files() -> list[str]:
+    """All files of tests, relative to the root of the repository."""
+    return sorted(file.relative_to(ROOT).as_posix() for file in TESTS.rglob("test_*.py"))
 
 
 @cache
@@ -180,14 +192,8 @@ def importers() -> dict[str, list[str]]:
 
 @cache
 def _tests_by_module() -> dict[str, list[str]]:
-    rooms = [folder for folder in TESTS.iterdir() if (ROOT / PACKAGE / folder.name).is_dir()]
-    return _users(
-        [
-            file.relative_to(ROOT).as_posix()
-            for folder in rooms
-            for file in folder.rglob("test_*.py")
-        ]
-    )
+    rooms = {folder.name for folder in TESTS.iterdir() if (ROOT / PACKAGE / folder.name).is_dir()}
+    return _users([file for file in _test_files() if file.split("/")[1] in rooms])
 
 
 def _importing_tests(path: str) -> list[str]:

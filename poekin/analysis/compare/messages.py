@@ -209,6 +209,11 @@ def equivalents(
             f"the {frame} moved by {far} along or about the axis of joint {k + 1} ({quote(a.joint_names[k])}) is the "
             f"same as a zero offset of {far} of that joint"
         )
+    k = first.link
+    if k and a.kinds[k] == "prismatic" and not first.moved[k]:
+        said.append(
+            f"the link behind joint {k + 1} ({quote(a.joint_names[k])}), which slides, explains it as well"
+        )
     for other in others:
         (k,) = np.flatnonzero(other.implicated)
         change = "the other direction"

@@ -16,7 +16,7 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...model.kinematics.arm import Arm
-from ...model.sampling import joint_ratios
+from ...model.sampling import angle_mask, joint_ratios
 from ...results import Result
 from .jacobian_part import ROWS, TOLERANCE, Part, generic_rank, moving_chain, scaled, svd
 from .messages import motion_words, rate_words
@@ -331,9 +331,9 @@ def _positive(x: Array) -> Array:
 
 
 def _unit(chain: Chain) -> Unit:
-    angles = [chain.is_angle(k) for k in range(chain.dof)]
-    if all(angles):
+    angles = angle_mask(chain)
+    if angles.all():
         return "rad"
-    if any(angles):
+    if angles.any():
         return "rad and m"
     return "m"

@@ -12,6 +12,7 @@ from ...formats.poses.read import said_units
 from ...formats.text.csv_header import CONVERSIONS, Columns
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.readings.coupled import joint_values
 
 Mm = Annotated[
     bool | None,
@@ -77,7 +78,32 @@ SI = SaidUnits()
 
 
 def beyond_limits(chain: Chain, q: Array, units: SaidUnits) -> str:
-    """A sentence about configurations (N, m) beyond the limits, "" where there is none."""
+    """A sentence about configurations (N, m) beyond the limits, else about joints beyond their own;
+    "" where there is none.
+    """
+    sentence = _beyond(chain, q, units)
+    if sentence or not np.isfinite(chain.joint_limits).any():
+        return sentence
+    joints = chain.replace(
+        coupling=None,
+        offset=None,
+        q_names=chain.joint_names,
+        limits=chain.joint_limits,
+        velocity_limits=None,
+        joint_limits=None,
+        joint_velocity_limits=None,
+    )
+    return _beyond(joints, joint_values(chain, q), units, "joint ", "own ")
+
+
+def _beyond(
+    chain: Chain,
+    q: Array,
+    units: SaidUnits,
+    what: str = "",
+    whose: str = "",
+) -> str:
+    """A sentence about coordinates (N, m) beyond the limits, each called `what` and its name."""
     low, high = chain.limits.T
     outside = (q < low - BEYOND) | (q > high + BEYOND)
     rows = np.flatnonzero(outside.any(axis=1))
@@ -90,12 +116,11 @@ def beyond_limits(chain: Chain, q: Array, units: SaidUnits) -> str:
     unit = units.of(chain)[k]
     which = ""
     if len(q) > 1:
-        which = f"{len(rows)} of {len(q)} configurations are beyond the limits; in the first, row {first}, "
+        which = f"{len(rows)} of {len(q)} configurations are beyond the {whose}limits; in the first, row {first}, "
     cure = ""
     if chain.is_angle(k) and units.deg is None:
         cure = "; are these degrees? --deg says so"
     if not chain.is_angle(k) and units.mm is None:
         cure = "; are these mm? --mm says so"
-    return (
-        f"{which}{chain.q_names[k]} = {value} {unit} is outside its limits, {least} to {most}{cure}"
-    )
+    name = f"{what}{chain.q_names[k]}"
+    return f"{which}{name} = {value} {unit} is outside its {whose}limits, {least} to {most}{cure}"

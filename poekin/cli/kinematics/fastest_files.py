@@ -64,7 +64,8 @@ def give(
         write_whole(plot, svg.encode())
         if not json:
             say(f"joints drawn in {path_text(plot)}")
-    return poses.UNSOLVED if trajectory.beyond_limits.any() else 0
+    beyond = trajectory.beyond_limits.any() or trajectory.joints_beyond_limits.any()
+    return poses.UNSOLVED if beyond else 0
 
 
 def _write(

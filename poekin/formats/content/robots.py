@@ -14,6 +14,7 @@ from ..mjcf import mjcf
 from ..ros import description
 from ..text import toml_text, xml
 from ..vendors import yaml_io
+from ..vendors.calibration import FactoryCalibration
 from . import compressed, kinds
 
 _WORD = re.compile(r"[\w./\\:~-]+")
@@ -114,16 +115,33 @@ def _from_xml(content: str | bytes, name: str) -> Robot:
     return urdf.read_text(content, name)
 
 
-def _from_yaml(text: str, name: str) -> Robot:
+def calibration_text(content: bytes, name: str) -> str | None:
+    """Text of a vendor's calibration, None of any other content. Raises: ModelError."""
+    if kinds.kind_of(content) not in ("yaml", None):
+        return None
+    text = kinds.decode(content, Source(name).place())
+    return text if _is_calibration(text) else None
+
+
+def read_calibration(text: str, name: str, arm: str | None = None) -> FactoryCalibration:
+    """Calibration, of one arm where there are several, in a vendor's text. Raises: ModelError."""
     place = Source(name).place()
-    if description.is_in(text) or not _CALIBRATION.search(text):
-        found = description.from_yaml(text, place)
-        return urdf.read_text(found, f"{name} ({description.NAME})")
     if len(text) > yaml_io.LARGEST:
         raise ModelError(
             f"{place}: expected a calibration of at most {yaml_io.LARGEST} characters, got {len(text)}"
         )
-    return yaml_io.read_text(text, place).to_robot()
+    return yaml_io.read_text(text, place, arm=arm)
+
+
+def _is_calibration(text: str) -> bool:
+    return not description.is_in(text) and _CALIBRATION.search(text) is not None
+
+
+def _from_yaml(text: str, name: str) -> Robot:
+    if _is_calibration(text):
+        return read_calibration(text, name).to_robot()
+    found = description.from_yaml(text, Source(name).place())
+    return urdf.read_text(found, f"{name} ({description.NAME})")
 
 
 def _from_parameter(text: str, name: str) -> Robot:

@@ -12,6 +12,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ... import html_page
 from ...checks import REQUIRED, choice
 from ...errors import InputError, PoekinWarning, ShapeError, quote, safe_repr
 from ...groups.arrays import Array
@@ -234,6 +235,14 @@ class Table:
         )
         return make, (self.convention, self.rows)
 
+    def _repr_html_(self) -> str:
+        rows = []
+        for r in self.rows:
+            cells = (r.name, r.kind, *map(_shown, (r.theta, r.d, r.a, r.alpha)))
+            rows.append(html_page.row(cells, _CLASSES))
+        words = f"{self.convention} DH table {self.name}"
+        return html_page.caption(words) + html_page.table(_HEADS, _CLASSES, rows)
+
     def __repr__(self) -> str:
         lines = [f"<{self.convention} DH table {quote(self.name)}, {len(self)} joints"]
         lines += [
@@ -243,6 +252,10 @@ class Table:
         ]
         lines += [f"  coupling: {statement}" for statement in self.coupling]
         return "\n".join(lines) + ">"
+
+
+_HEADS = ("joint", "kind", "θ, rad", "d, m", "a, m", "α, rad")
+_CLASSES = ("word", "word", "number", "number", "number", "number")
 
 
 def check_convention(convention: object) -> None:

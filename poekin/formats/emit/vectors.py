@@ -12,6 +12,7 @@ from ...groups import se3
 from ...groups.arrays import Array
 from ...model.kinematics.compiled import CompiledChain
 from ...model.kinematics.pose_jacobian import AnyFrame
+from ...model.sampling import angle_mask
 from .messages import jacobian_frame
 
 COUNT = 8
@@ -39,8 +40,7 @@ def vectors(
     which are rounded too.
     """
     chain = arm.chain
-    angles = [chain.is_angle(k) for k in range(chain.dof)]
-    size = np.where(angles, np.pi, 1.0)
+    size = np.where(angle_mask(chain), np.pi, 1.0)
     rng = np.random.default_rng(1994)
     q = rng.uniform(-size, size, (COUNT, chain.dof))
     q[0] = 0.0

@@ -96,7 +96,7 @@ def read(text: str | bytes, name: str) -> Visuals:
 def _prepared(spec: Any, mujoco: ModuleType) -> tuple[Any, list[_Geom]]:
     """Geoms of a spec, and the spec that keeps them alive; what needs a file becomes a sphere."""
     folder = str(spec.meshdir)
-    meshes = {mesh.name: _mesh(mesh, folder) for mesh in spec.meshes}
+    meshes = {_name(mesh): _mesh(mesh, folder) for mesh in spec.meshes}
     colors = {material.name: _rgba(material) for material in spec.materials}
     geoms = [_geom(geom, meshes, colors) for geom in spec.geoms]
     for geom in geoms:
@@ -129,6 +129,11 @@ def _geom(
         elif not mesh.file and mesh.triangles is None:
             why = f"mesh {quote(geom.meshname)} has neither a file nor vertices with faces"
     return _Geom(geom, kind, _line(geom.info), color, mesh, why)
+
+
+def _name(mesh: Any) -> str:
+    """Name of a mesh: one without is called after its file, which older versions do as they compile."""
+    return mesh.name or os.path.splitext(os.path.basename(mesh.file))[0]
 
 
 def _mesh(mesh: Any, folder: str) -> _Mesh:

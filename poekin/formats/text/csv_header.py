@@ -87,8 +87,9 @@ def _named(word: str, names: Sequence[str]) -> str:
     """The name that a word is, in another case where only one is; "" for none."""
     if word in names:
         return word
-    folded = [name for name in names if name.casefold() == word.casefold()]
-    return folded[0] if len(folded) == 1 else ""
+    folded = word.casefold()
+    alike = [name for name in names if name.casefold() == folded]
+    return alike[0] if len(alike) == 1 else ""
 
 
 def order(headings: Sequence[Heading], columns: Columns, where: str) -> list[int]:

@@ -78,9 +78,14 @@ def _implied_limits(chain: ChainData) -> Array:
     return sum_limits(chain.coupling, chain.limits) + chain.offset[:, None]
 
 
+def joint_values(chain: ChainData, q: Array) -> Array:
+    """Values x = C q + c of the joints (..., n), rad or m, at configurations (..., m)."""
+    return q @ chain.coupling.T + chain.offset
+
+
 def beyond_own_limits(chain: ChainData, q: Array) -> np.ndarray:
     """Whether each joint is beyond its own limits (..., n) at configurations (..., m)."""
-    x = q @ chain.coupling.T + chain.offset
+    x = joint_values(chain, q)
     lower, upper = chain.joint_limits.T
     rounding = WITHIN * (1 + np.abs(x))
     return (x < lower - rounding) | (x > upper + rounding)

@@ -195,6 +195,8 @@ class _Statement:
 
     def _fault(self, expected: str, hint: str = "") -> InputError:
         got = quote(self._next(), 40) if self._next() else "nothing"
+        if "=" not in self.text:
+            hint += "; a statement is a joint as a sum of readings, as in 'J3 = J2 + J3'"
         return InputError(f"coupling: {quote(self.text)}: expected {expected}, got {got}{hint}")
 
 

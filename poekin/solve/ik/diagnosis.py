@@ -113,7 +113,7 @@ def find_causes(
         else:
             reason[k] = LIMITS
             hit[k] = limits_hit(domain, q[k], within, problem.fast.q_names)
-            if domain.contains(within):
+            if (within == np.clip(within, *chain.limits.T)).all():
                 joints = beyond_own_limits(chain, within)
                 hit[k] = tuple(itertools.compress(chain.joint_names, joints))
     return Causes(reason, beyond, tuple(hit))

@@ -18,7 +18,7 @@ from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ...model.readings.coupled import beyond_own_limits
 from ..chain_cache import ChainCache
-from ..joint_units import bounds, joint_units
+from ..joint_units import JointUnits, bounds, has_sums, in_joints, joint_units
 from .joint_domain import JointDomain, make_joint_domain
 from .plane import plane_normal
 from .task import Task, TaskName, make_task, pose_errors
@@ -112,6 +112,14 @@ class IKProblem:
     def generic_rank(self) -> int:
         """Number of the task's degrees of freedom that the arm can serve by what may move."""
         return self.task.generic_rank(self.fast.chain, self.domain.locked_values)
+
+    @cached_property
+    def by_joints(self) -> JointUnits | None:
+        """The arm in the values of its joints, where they have limits that the domain does not say."""
+        chain = self.fast.chain
+        if self.has_joint_limits and has_sums(chain) and not self.domain.locked.any():
+            return in_joints(chain)
+        return None
 
     def coordinates(self, u: Array) -> Array:
         """The user's coordinates q (..., m) of joint units u (..., m)."""

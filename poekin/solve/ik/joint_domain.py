@@ -14,6 +14,7 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...model.provenance import warn
+from ...model.readings.coupled import joint_values
 from ...model.sampling import half_range, sampling_range
 from ..joint_units import JointUnits, bounds, periods
 
@@ -93,10 +94,32 @@ def make_joint_domain(units: JointUnits, lock: Any, limits: bool) -> JointDomain
     """
     chain = units.fast.chain
     within = bounds(chain, limits)
+    locked_values = _locked_values(units, lock, within)
+    if limits and np.isfinite(chain.joint_limits).any():
+        within = _left_by_joints(chain, within, locked_values)
+        chain = chain.replace(limits=within)
     ranges = free_ranges(chain)
     limited = np.isfinite(within).any(axis=1)
     ranges[limited] = np.stack(sampling_range(chain), axis=1)[limited]
-    return JointDomain(within, ranges, _locked_values(units, lock, within), periods(chain))
+    return JointDomain(within, ranges, locked_values, periods(chain))
+
+
+def _left_by_joints(chain: Chain, limits: Array, locked_values: Array) -> Array:
+    """Limits (m, 2) within which the joints' own keep each coordinate that is the only free one of
+    some joint.
+    """
+    within = limits.copy()
+    free = np.isnan(locked_values)
+    ratios = chain.coupling * free
+    at_rest = joint_values(chain, np.where(free, 0.0, locked_values))
+    for k in np.flatnonzero(free):
+        alone = (ratios[:, k] != 0) & (np.count_nonzero(ratios, axis=1) == 1)
+        ends = (chain.joint_limits - at_rest[:, None])[alone] / ratios[alone, k, None]
+        low = ends.min(axis=1).max(initial=limits[k, 0])
+        high = ends.max(axis=1).min(initial=limits[k, 1])
+        if low <= high:  # else no configuration is within, which is found out by the joints
+            within[k] = low, high
+    return within
 
 
 def free_ranges(chain: Chain) -> Array:

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ... import svg
 from ...formats.text.atomic_write import write_whole
 from ...model.chain import Chain
-from .. import svg
 from .csv_io import Path, joints_over_time
 
 

@@ -157,7 +157,15 @@ def follow(  # noqa: PLR0913 - options by keyword
         speed=limit_v,
         acceleration=limit_a,
         lock=dict(lock or {}),
+        joint_limits=_joint_limits(given, limits),
     )
+
+
+def _joint_limits(chain: Chain, limits: bool) -> Array | None:
+    """Limits (n, 2) of the joints' own values; None where there are none or they do not count."""
+    if limits and np.isfinite(chain.joint_limits).any():
+        return chain.joint_limits
+    return None
 
 
 def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array) -> Solution:

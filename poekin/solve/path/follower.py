@@ -11,6 +11,8 @@ import numpy as np
 
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
+from ...model.kinematics.compiled import CompiledChain
+from ...model.readings.coupled import WITHIN
 from ...results import Progress
 from ..ik.ik_problem import IKProblem
 from ..ik.least_error import least_error, slope_at
@@ -182,25 +184,64 @@ class Follower:
         """Number of targets that are followed from `start`; where `anywhere`, the first of them at
         any distance from it.
         """
+        if anywhere:
+            done = self._steps(targets[:1], start, q, np.full_like(start, np.inf))
+            return done and 1 + self._descend(targets[1:], q[0], q[1:])
+        done = self._steps(targets, start, q, self.most)
+        slid = self.problem.by_joints is not None
+        while slid and done < len(targets):
+            # Joints' own limits in the way: along them a path slides in the values of the joints.
+            slid = self._slide(targets[done:], q[done - 1] if done else start, q[done:])
+            done += slid
+            if slid and done < len(targets):
+                done += self._steps(targets[done:], q[done - 1], q[done:], self.most)
+        return done
+
+    def _steps(
+        self,
+        targets: Array,
+        start: Array,
+        q: Array,
+        most: Array,
+    ) -> int:
+        """Number of targets that are followed from `start` until a joint leaves its own limits."""
+        limits = self.problem.domain.limits
+        done = self._kernel(self.problem.fast, targets, start.copy(), limits, most, q)
+        beyond = np.flatnonzero(~self.problem.keeps_joints(q[:done]))
+        return min([done, *beyond.tolist()])
+
+    def _slide(self, targets: Array, start: Array, q: Array) -> int:
+        """Number of targets that are followed in the values of the joints, until a coordinate
+        leaves its limits.
+        """
+        joints = self.problem.by_joints
+        assert joints is not None
+        fast = joints.fast
+        x = np.empty_like(q)
+        most = joints.of_steps(self.most)
+        limits = fast.chain.limits.copy()
+        done = self._kernel(fast, targets, joints.of(start), limits, most, x)
+        found = joints.coordinates(x[:done], np.array([-np.inf, np.inf]))
+        q[:done] = np.clip(found, *self.problem.domain.limits.T)
+        apart = np.abs(found - q[:done]) > WITHIN * (1 + np.abs(found))
+        beyond = np.flatnonzero(apart.any(axis=-1))
+        return min([done, *beyond.tolist()])
+
+    def _kernel(
+        self,
+        fast: CompiledChain,
+        targets: Array,
+        start: Array,
+        limits: Array,
+        most: Array,
+        q: Array,
+    ) -> int:
+        """Number of targets that the compiled descent follows."""
         from ...engine.kernels import follow_kernels  # imports Numba
 
-        count = 1 if anywhere else len(targets)
-        done = follow_kernels.follow.call(
-            self.problem.fast.hybrid_address,
-            targets[:count],
-            start.copy(),
-            self.problem.domain.limits,
-            self.problem.locked,
-            self.problem.options,
-            np.full_like(start, np.inf) if anywhere else self.most,
-            q,
-            np.empty((count, codes.INFO)),
-        )
-        beyond = np.flatnonzero(~self.problem.keeps_joints(q[:done]))
-        done = min([done, *beyond.tolist()])
-        if done and anywhere:
-            done += self._descend(targets[1:], q[0], q[1:])
-        return done
+        info = np.empty((len(targets), codes.INFO))
+        asked = (limits, self.problem.locked, self.problem.options, most)
+        return follow_kernels.follow.call(fast.hybrid_address, targets, start, *asked, q, info)
 
     def _in_pieces(
         self,

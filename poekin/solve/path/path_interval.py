@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from ...groups.arrays import Array
+from ..ik.diagnosis import AT_LIMIT
 
 EventKind = Literal["missed", "switch", "limit", "speed", "acceleration", "singular"]
 
@@ -42,7 +43,7 @@ class PathInterval:
     first, last : int
         Numbers of the first and the last point.
     name : str
-        Name of the coordinate; "" for all of them together.
+        Name of the coordinate or joint; "" for all of them together.
     worst : int
         Number of the worst point.
     value : float
@@ -94,3 +95,13 @@ def events_of(
     """An event of a kind for each stretch, with its words."""
     for s in stretches:
         yield PathEvent(s.first, s.last, kind, words(s))
+
+
+def intervals_at_limits(x: Array, limits: Array, names: Sequence[str]) -> tuple[PathInterval, ...]:
+    """Intervals in which one of the values (N, k) is at one of its limits (k, 2)."""
+    found = []
+    for values, bounds, name in zip(x.T, limits, names, strict=True):
+        for bound in bounds:
+            off = np.abs(values - bound)
+            found += intervals(off <= AT_LIMIT, values, -off, bound, name)
+    return tuple(sorted(found))

@@ -14,8 +14,8 @@ from ...analysis.dexterity.singularity import singularity
 from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.readings.coupled import joint_values
 from ...results import Result
-from ..ik.diagnosis import AT_LIMIT
 from ..ik.solution import BAD_TARGET, Solution
 from ..ik.task import Task
 from ..joint_units import joint_units
@@ -23,7 +23,7 @@ from ..motion.csv_io import Path, write_joints
 from ..motion.parameterization.time_optimal import time_optimal
 from ..motion.plot import plot_joints
 from ..motion.trajectory.trajectory import Trajectory
-from .path_interval import PathEvent, PathInterval, events_of, intervals
+from .path_interval import PathEvent, PathInterval, events_of, intervals, intervals_at_limits
 
 NEAR_SINGULAR = 1e-2
 """Smallest ÷ largest singular value of the Jacobian, lengths ÷ reach, below which a singularity is
@@ -52,6 +52,8 @@ class PathResult(Result):
         Limits of each coordinate, per s and s².
     lock : dict of str to float
         Locked coordinates and their values, rad or m.
+    joint_limits : (n, 2) ndarray or None
+        Limits of the joints' own values, rad or m; None where there are none or they do not count.
     """
 
     derived = (
@@ -63,6 +65,7 @@ class PathResult(Result):
         "ok",
         "largest_step",
         "at_limits",
+        "joints_at_limits",
         "speed_violations",
         "acceleration_violations",
         "near_singular",
@@ -78,6 +81,7 @@ class PathResult(Result):
     speed: Array | None
     acceleration: Array | None
     lock: Mapping[str, float] = field(default_factory=dict)
+    joint_limits: Array | None = None
 
     @property
     def q(self) -> Array:
@@ -148,13 +152,15 @@ class PathResult(Result):
     @cached_property
     def at_limits(self) -> tuple[PathInterval, ...]:
         """Intervals in which a coordinate is at its limit, `bound`; `worst` is the first point."""
-        found = []
-        for k, name in enumerate(self.chain.q_names):
-            q = self.q[:, k]
-            for bound in self.limits[k]:
-                off = np.abs(q - bound)
-                found += intervals(off <= AT_LIMIT, q, -off, bound, name)
-        return tuple(sorted(found))
+        return intervals_at_limits(self.q, self.limits, self.chain.q_names)
+
+    @cached_property
+    def joints_at_limits(self) -> tuple[PathInterval, ...]:
+        """Intervals in which a joint is at its own limit, `bound`; `worst` is the first point."""
+        if self.joint_limits is None:
+            return ()
+        x = joint_values(self.chain, self.q)
+        return intervals_at_limits(x, self.joint_limits, self.chain.joint_names)
 
     @cached_property
     def speed_violations(self) -> tuple[PathInterval, ...]:
@@ -281,6 +287,7 @@ class PathResult(Result):
             *self._missed(),
             *(PathEvent(k, k, "switch", self._switch(k)) for k in self.branch_switches),
             *events_of("limit", self.at_limits, _at_limit),
+            *events_of("limit", self.joints_at_limits, _joint_at_limit),
             *events_of("speed", self.speed_violations, lambda s: _exceeds(s, "speed", "s")),
             *events_of(
                 "acceleration",
@@ -384,6 +391,10 @@ class PathResult(Result):
 
 def _at_limit(s: PathInterval) -> str:
     return f"{_points(s)}: {quote(s.name)} at its limit {s.bound:.6g}"
+
+
+def _joint_at_limit(s: PathInterval) -> str:
+    return f"{_points(s)}: joint {quote(s.name)} at its own limit {s.bound:.6g}"
 
 
 def _exceeds(s: PathInterval, what: str, unit: str) -> str:

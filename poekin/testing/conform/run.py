@@ -301,11 +301,8 @@ def outcome(
         error_of=again.what,
         fault=fault,
         case=case,
-        words=display.words,
-        paste=display.paste,
-        expected=display.expected,
-        names=display.names,
         hint=hint,
+        **display._asdict(),
     )
 
 

@@ -37,6 +37,7 @@ _FAULTS = (
     OSError,
     AssertionError,
     SyntaxError,
+    ImportError,  # of a package that guesses encodings
     MemoryError,
     struct.error,
 )
@@ -74,13 +75,14 @@ def load(data: bytes, path: str) -> tuple[MeshPart, ...]:
     else:
         data = refuse.checked(data, ending)
     try:
-        scene = trimesh.load_scene(
-            io.BytesIO(data),
-            file_type=ENDINGS[ending],
-            resolver=resolver,
-            process=False,
-        )
-        pieces = [piece for name in scene.graph.nodes_geometry for piece in _piece(scene, name)]
+        with np.errstate(all="ignore"):  # of numbers that are refused as vertices
+            scene = trimesh.load_scene(
+                io.BytesIO(data),
+                file_type=ENDINGS[ending],
+                resolver=resolver,
+                process=False,
+            )
+            pieces = [piece for node in scene.graph.nodes_geometry for piece in _piece(scene, node)]
     except _FAULTS as fault:
         raise FileError(f"cannot be read: {escape_unprintable(str(fault), 200)}") from fault
     by_color: dict[int | None, list[tuple[np.ndarray, np.ndarray]]] = {}

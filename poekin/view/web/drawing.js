@@ -150,6 +150,26 @@ export class Drawing {
         this.K.render();
     }
 
+    // Shows of the clouds only what lies below a plane across an axis of the world, 0, 1 or 2, a share
+    // of their extent from its lower end; all of them where axis is null.
+    cut(axis, share) {
+        const { THREE } = this.K.Provider;
+        const clouds = this.three.filter((_, k) => this.state.scene.objects[k].kind === "cloud");
+        const box = new THREE.Box3();
+        clouds.forEach((cloud) => box.expandByObject(cloud));
+        const low = box.min.getComponent(axis ?? 0);
+        const at = low + share * (box.max.getComponent(axis ?? 0) - low);
+        const normal = new THREE.Vector3().setComponent(axis ?? 0, -1);
+        const planes = axis === null ? [] : [new THREE.Plane(normal, at)];
+        this.K.getWorld().renderer.localClippingEnabled = true;
+        clouds.forEach((cloud) => cloud.traverse(({ material }) => {
+            if (material) {
+                Object.assign(material, { clipping: true, clippingPlanes: planes, needsUpdate: true });
+            }
+        }));
+        this.K.render();
+    }
+
     // A camera that sees all that is shown, from the front, a little from above.
     fit() {
         const { THREE } = this.K.Provider;
@@ -180,7 +200,7 @@ export class Drawing {
         return box;
     }
 
-    // The floor: lines 1 : 10 of the scene apart, at z = 0 or below what reaches under it.
+    // The floor: lines a round length apart, at z = 0 or below what reaches under it.
     setTheme(dark) {
         const { THREE } = this.K.Provider;
         const world = this.K.getWorld();
@@ -188,7 +208,7 @@ export class Drawing {
         if (this.ground !== null) {
             world.scene.remove(this.ground);
         }
-        const step = 10 ** Math.round(Math.log10(this.state.scene.size / 6));
+        const step = roundLength(this.state.scene.size / 8);
         const count = 2 * Math.ceil((1.25 * this.state.scene.size) / step);
         const color = dark ? 0x353b43 : 0xd3d9df;
         this.ground = new THREE.GridHelper(count * step, count, color, color);
@@ -199,6 +219,12 @@ export class Drawing {
         world.scene.add(this.ground);
         this.K.render();
     }
+}
+
+// The largest of 1, 2, 5, times a power of ten, that is not above x.
+export function roundLength(x) {
+    const power = 10 ** Math.floor(Math.log10(x));
+    return ([5, 2].find((k) => k * power <= x) ?? 1) * power;
 }
 
 function setMatrix(object, M) {

@@ -1,13 +1,13 @@
 // The page's state, and `window.poekin`, by which tests and other scripts reach it.
 
 import { Drawing } from "./drawing.js";
-import { button, element } from "./elements.js";
+import { button, element } from "./panel/elements.js";
 import { Labels } from "./labels.js";
 import { defaultPart, largestRank, product, spread } from "./mathematics.js";
-import { numbersOf } from "./numbers.js";
-import { Panel } from "./panel.js";
+import { numbersOf } from "./panel/numbers.js";
+import { Panel } from "./panel/panel.js";
 import { drag, enableHandle } from "./drag.js";
-import { enablePlay } from "./play.js";
+import { enablePlay } from "./panel/play.js";
 
 const SAMPLES = 16; // configurations by which the rank of a tip's Jacobian is found
 
@@ -138,7 +138,8 @@ export function fromHash(hash, count) {
 
 export function toHash({ q, selectedTip }) {
     const tip = selectedTip > 0 ? `&tip=${selectedTip}` : "";
-    return `#q=${Array.from(q).join(",")}${tip}`;
+    const words = Array.from(q).join(",").replaceAll("+", ""); // a link reads 1e+9 as 1e 9
+    return `#q=${words}${tip}`;
 }
 
 function readHash(poekin) {

@@ -12,8 +12,11 @@ import pytest
 from benchmarks.planted_changes import ARMS, arm
 from poekin.analysis.compare.compare import compare
 from poekin.formats.load import load
+from poekin.groups import se3
 from tests.analysis.compare.planted import KINDS, Case, fault, plant, with_limits
+from tests.analysis.compare.test_compare_slides import COBRA, RAILS
 
+ON_RAILS = {f"{name} on a rail": chain for name, chain in RAILS.items()}
 FRAMES = ("tool", "base", "mm file")
 
 
@@ -62,6 +65,54 @@ def test_of_two_differences_at_once_the_outcome_is_right_and_nine_in_ten_are_nam
     assert len(outcomes) == len(pairs)
     assert all(outcomes)
     assert np.mean(named) >= 0.9
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize(
+    "name, frame",
+    [
+        *((name, "") for name in ("cobra600", "stanford", *ON_RAILS)),
+        ("cobra600", "base"),
+        ("stanford", "base"),
+        ("panda on a rail", "tool"),
+        ("six axes anywhere on a rail", "tool"),
+    ],
+)
+def test_a_longer_link_is_named_where_a_slide_that_shows_no_motion_lies_beside_it(
+    name, frame, swapped
+):
+    chain = with_limits(ON_RAILS.get(name) or load(name).chain())
+    rng = np.random.default_rng(0)
+    for k in joints("link length", chain.dof):
+        if chain.kinds[k] == "prismatic":
+            continue
+        case = plant(Case(chain, ()), "link length", k, rng)
+        if frame:
+            case = plant(case, frame, 0, rng)
+        pair = (case.chain, chain) if swapped else (chain, case.chain)
+        result = compare(*pair, samples=5)
+        assert fault(result, case) == ""
+        slides = chain.kinds[k + 1] == "prismatic"
+        assert any("which slides" in said for said in result.alternatives) == slides
+
+
+def test_a_link_that_turned_the_slide_behind_it_is_not_one_behind_the_slide():
+    S = COBRA.screws.copy()
+    T = se3.exp([0.01, 0, 0, 0, 0.005, 0])
+    S[2:] = S[2:] @ se3.adjoint(T).T
+    result = compare(COBRA, COBRA.replace(screws=S, home=T @ COBRA.home), samples=5)
+    (said,) = result.findings
+    assert said.startswith("the link between joint 2 ('joint2') and joint 3 ('joint3') differs")
+    assert not any("which slides" in said for said in result.alternatives)
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_an_axis_and_a_tool_that_did_not_move_with_it_across_a_slide_are_no_link(swapped):
+    chain = with_limits(COBRA)
+    rng = np.random.default_rng(0)
+    case = plant(plant(Case(chain, ()), "shift", 3, rng), "tool", 0, rng)
+    pair = (case.chain, chain) if swapped else (chain, case.chain)
+    assert fault(compare(*pair, samples=5), case) == ""
 
 
 @pytest.mark.parametrize("swapped", [False, True])

@@ -89,3 +89,14 @@ def test_joints_that_differ_in_number_beyond_that_have_no_remedy(tmp_path, poeki
     assert code == 1
     assert "Remedy" not in out
     assert out.splitlines()[-1].startswith("The models differ: 4 joints against 7, and no 3 joints")
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_an_arm_and_a_model_without_joints_differ_and_no_option_helps(tmp_path, poekin, swapped):
+    alone = tmp_path / "alone.urdf"
+    alone.write_text('<robot name="r"><link name="base"/></robot>', encoding="utf-8")
+    pair = [written(tmp_path, "a.urdf"), str(alone)]
+    code, out, err = poekin("compare", *(pair[::-1] if swapped else pair))
+    assert (code, err) == (1, "")
+    assert "Remedy" not in out
+    assert out.endswith("The models differ\n")

@@ -170,6 +170,16 @@ def test_visuals_go_with_a_robot_that_is_copied_pickled_coupled_or_calibrated():
     assert len(names) == 11
 
 
+def test_what_hangs_on_links_that_a_robot_does_not_have_is_not_seen():
+    whole = pk.from_text(
+        '<robot name="r"><link name="a"><visual/></link><link name="b"><visual><geometry>'
+        f'{BALL}</geometry></visual></link><joint name="j" type="fixed"><parent link="a"/>'
+        '<child link="b"/></joint></robot>'
+    )
+    assert [len(found) for found in visuals_of(whole)] == [1, 1]
+    assert visuals_of(pk.Robot("r", ["c"], [], whole.source)) == Visuals()
+
+
 def test_there_is_nothing_to_see_of_a_robot_that_was_read_from_no_file():
     assert visuals_of(pk.load("puma560")) == Visuals()
     assert visuals_of(pk.Robot("r", ["a"], [])) == Visuals()

@@ -20,6 +20,7 @@ from poekin.model.readings.coupled import (
     reading_speeds,
     sum_limits,
 )
+from poekin.model.sampling import half_range, sampling_range
 
 ROBOT = pk.load("puma560")
 ARM = ROBOT.chain()
@@ -157,6 +158,28 @@ def test_random_configurations_keep_the_joints_within_their_own_limits():
     assert (x3 <= upper[2] + 1e-12).all()
     assert chain.random(0).shape == (6,)
     np.testing.assert_array_equal(ARM.random(3, 5), ARM.random(3, 5))
+
+
+@pytest.mark.parametrize(
+    "own", [(7.0, 8.0), (-700.0, -699.0), (6.2, 8.0), (7.0, np.inf), (-np.inf, -7.0)], ids=str
+)
+@pytest.mark.parametrize("said", ["J3 = J2 + J3", "J3 = J2 - 2 J3"])
+def test_readings_without_limits_are_drawn_from_where_the_joints_own_limits_lie(said, own):
+    wide = [[-np.inf, np.inf]] * 6
+    limits = np.tile([-np.inf, np.inf], (6, 1))
+    limits[2] = own
+    limits[1] = -2.0, 2.0
+    chain = ARM.coupled(said).replace(limits=wide, joint_limits=limits)
+    q = chain.random(0, 500)
+    x = q @ chain.coupling.T
+    assert ((x >= limits[:, 0] - 1e-9) & (x <= limits[:, 1] + 1e-9)).all()
+    # The reading that joint 3 alone follows is moved, the others are drawn as ever.
+    others = [0, 1, 3, 4, 5]
+    assert (np.abs(q[:, others]) <= np.pi).all()
+    low, high = sampling_range(chain)
+    np.testing.assert_allclose((high - low)[others], 2 * np.pi)
+    within = chain.replace(joint_limits=np.tile([-6.0, 6.0], (6, 1)))
+    np.testing.assert_array_equal(sampling_range(within)[0], -half_range(within))
 
 
 def test_a_chain_that_no_configuration_keeps_within_its_joints_limits_draws_none():

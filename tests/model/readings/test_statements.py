@@ -17,6 +17,7 @@ from poekin.model.readings.statements import (
     statements_by_joint,
 )
 
+FORM = "; a statement is a joint as a sum of readings, as in 'J3 = J2 + J3'"
 THERE = "; available: 'J1', 'J2', 'J3', 'J10', 'left arm' and 2 more"
 SINGULAR = "different readings give the same values of the joints, the matrix is singular"
 NAMES = ("J1", "J2", "J3", "J10", "left arm", "a-b", "it's")
@@ -57,8 +58,10 @@ def test_a_name_of_the_robot_comes_before_its_number():
 @pytest.mark.parametrize(
     ("statement", "message"),
     [
-        ("J3", "'J3': expected '=' after the name of a joint, got nothing"),
-        ("J3 J2", "'J3 J2': expected '=' after the name of a joint, got 'J2'"),
+        ("J3", f"'J3': expected '=' after the name of a joint, got nothing{FORM}"),
+        ("J3 J2", f"'J3 J2': expected '=' after the name of a joint, got 'J2'{FORM}"),
+        ("foo", f"'foo': expected the name of a joint, got 'foo'{THERE}{FORM}"),
+        ("", f"'': expected the name of a joint, got nothing{THERE}{FORM}"),
         ("= J2", f"'= J2': expected the name of a joint, got '='{THERE}"),
         ("J33 = J2", "'J33 = J2': expected the name of a joint, got 'J33'; did you mean 'J3'?"),
         ("J3 =", f"'J3 =': expected the name of a reading, got nothing{THERE}"),

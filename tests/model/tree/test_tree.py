@@ -116,8 +116,8 @@ def test_a_source_that_is_none_is_refused():
         Robot("r", ["a"], [], source=5)  # pyright: ignore[reportArgumentType]
 
 
-def test_a_chain_of_a_hundred_thousand_links_is_legal():
-    count = 100_000
+def test_a_chain_of_twenty_thousand_links_is_legal():
+    count = 20_000
     shift = np.eye(4)
     shift[2, 3] = 1e-3
     joints = [Joint(f"j{i}", "fixed", f"l{i}", f"l{i + 1}", shift) for i in range(count - 1)]

@@ -27,6 +27,11 @@ ARM = pk.Chain.from_space(
     limits=[[-3, 3], [-3, 3], [-1, 1]],
 ).compile()  # fmt: skip
 Q = np.array([0.4, 0.9, 0.1])
+COUPLED = (
+    ARM.chain.replace(q_names=[*"abc"], joint_names=[*"abc"], limits=[[-3, 3], [-3, 1.2], [-1, 1]])
+    .coupled("b = a + b")
+    .replace(limits=[[-3, 3], [-1, 1], [-1, 1]])
+)
 
 
 def one(count: int = 1, most: float = 0.1, progress: Any = None) -> follower.Follower:
@@ -85,6 +90,57 @@ def test_the_first_piece_is_no_longer_than_another():
     found = f._in_pieces(Q + np.array([0.04, -0.02, 0]), f.targets[0], f.targets[0])
     assert found is not None
     assert np.abs(found - Q).max() < 0.1
+
+
+def test_the_first_pose_may_be_at_any_distance_and_the_next_may_not():
+    f = one(3)
+    q = np.empty((3, 3))
+    assert f._descend(f.targets, Q - 0.5, q, anywhere=True) == 3
+    assert f._descend(f.targets, Q - 0.5, q) == 0
+    f.targets[1, 0, 3] -= 0.5
+    assert f._descend(f.targets, Q - 0.5, q, anywhere=True) == 1
+
+
+def test_in_the_values_of_its_joints_a_path_goes_on_until_a_reading_leaves_its_limits():
+    x = np.linspace([0.4, 0.9, 0.1], [-0.6, 0.9, 0.1], 41)
+    T = ARM.fk(x)
+    readings = np.linalg.solve(COUPLED.coupling, x.T).T
+    problem = make_problem(COUPLED.compile(), SETTINGS)
+    within = int((readings[:, 1] <= 1.0).sum())
+    assert 5 < within < 40
+    q = np.empty((40, 3))
+    f = follower.Follower(problem, T, np.full(3, 0.1), None)
+    assert f._slide(T[1:], readings[0], q) == within - 1
+    np.testing.assert_allclose(q[: within - 1], readings[1:within], rtol=0, atol=1e-8)
+    # A step of 0.025 rad of joint a may go with one of b: half of what a reading may is left to each.
+    assert follower.Follower(problem, T, np.full(3, 0.04), None)._slide(T[1:], readings[0], q) == 0
+    assert make_problem(COUPLED.compile(), SETTINGS._replace(limits=False)).by_joints is None
+    assert one().problem.by_joints is None
+
+
+def test_a_path_goes_on_within_readings_limits_and_joints_by_turns_until_neither_leads_on():
+    f = follower.Follower(make_problem(COUPLED.compile(), SETTINGS), np.zeros((9, 4, 4)), Q, None)
+    ends = {"steps": {0: 2, 5: 1, 8: 0}, "slide": {2: 3, 6: 2, 8: 0}}
+    calls: list[tuple[str, int, list[float]]] = []
+
+    def way(name: str) -> Any:
+        def follow(targets: np.ndarray, start: np.ndarray, q: np.ndarray, *most: Any) -> int:
+            k = 9 - len(targets)
+            calls.append((name, k, start.tolist()))
+            count = ends[name][k]
+            q[:count] = np.arange(k, k + count)[:, None]
+            return count
+
+        return follow
+
+    f._steps, f._slide = way("steps"), way("slide")  # type: ignore[method-assign]
+    q = np.empty((9, 3))
+    assert f._descend(f.targets, Q, q) == 8
+    assert calls == [
+        ("steps", 0, Q.tolist()), ("slide", 2, [1.0] * 3), ("steps", 5, [4.0] * 3), ("slide", 6, [5.0] * 3),
+        ("steps", 8, [7.0] * 3), ("slide", 8, [7.0] * 3),
+    ]  # fmt: skip
+    assert q[:8, 0].tolist() == list(range(8))
 
 
 def test_a_path_goes_on_by_steps_then_by_pieces_from_where_the_steps_end():

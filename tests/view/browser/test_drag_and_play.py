@@ -62,7 +62,8 @@ def arm(open_page: Any) -> Any:
 
 @pytest.fixture(scope="module")
 def path(open_page: Any) -> Any:
-    second = sliding_arm.arm("second", shift=np.array([0.01, 0, 0]))
+    # the slide of the second arm is the factor k
+    second = sliding_arm.arm("second", factors=np.diag([1.0, 1, 0]), shift=np.array([0.01, 0, 1]))
     return open_page(page(sliding_arm.scene(arms=(sliding_arm.arm(), second), exaggerated=200.0)))
 
 
@@ -192,12 +193,12 @@ def test_the_factor_moves_the_second_arm_and_is_on_the_screen(path):
         const slider = document.querySelector("[aria-label^=Differences]");
         slider.value = Math.log10(k);
         slider.dispatchEvent(new Event("input"));
-        return [...poekin.linkPose(1, 1, null)];
+        return [...poekin.linkPose(1, 3, null)];
     }"""
     for k in (1, 20, 200):
         second = np.reshape(path.ask(script, k), (4, 4))
-        turned = np.arctan2(second[1, 0], second[0, 0])
-        assert turned == pytest.approx(0.2 + 0.01 * k, abs=1e-12)
+        assert np.arctan2(second[1, 0], second[0, 0]) == pytest.approx(0.71, abs=1e-12)
+        assert second[2, 3] == pytest.approx(0.3 - k, rel=1e-12)
         shown = path.boxes(".badge")
         assert len(shown) == (k > 1)
         if k > 1:

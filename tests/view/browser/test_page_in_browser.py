@@ -176,6 +176,22 @@ def test_a_layer_is_switched_off_and_on(arm):
         assert arm.ask("(id) => poekin.K.getObjectById(id).visible", number) is on
 
 
+def test_meshes_are_looked_through_and_a_cloud_is_cut(arm):
+    material = "(id) => poekin.K.getObjectById(id).material"
+    number = number_of(arm, layer="meshes")
+    switch = arm.tab.get_by_label("See through")
+    for opacity in (0.3, 1.0):
+        switch.click()
+        assert arm.ask(f"({material})({number}).opacity") == opacity
+    arm.tab.get_by_label("Cut the cloud").select_option("3")
+    planes = f"({material})({number_of(arm, kind='cloud')}).clippingPlanes"
+    z = 0.3 * 0.8  # of all points of the cloud
+    assert arm.ask(f"{planes}.map((p) => [...p.normal])") == [[0, 0, -1]]
+    assert arm.ask(f"{planes}[0].constant") == pytest.approx(z, abs=0.02)
+    arm.tab.get_by_label("Cut the cloud").select_option("0")
+    assert arm.ask(planes) == []
+
+
 def test_another_tip_has_its_own_jacobian(arm):
     arm.tab.locator("#poekin-tip").select_option("1")
     arm.settle()

@@ -97,14 +97,16 @@ def test_an_obj_has_the_colours_of_the_library_beside_it_and_of_no_other_place(t
 
 def test_parts_are_kept_by_their_content_and_come_back_bit_for_bit(tmp_path, monkeypatch):
     monkeypatch.setenv("POEKIN_CACHE_DIR", str(tmp_path / "cache"))
-    (tmp_path / "m.dae").write_bytes(dae(BOUND, library=RED, bound='material="m"'))
+    twice = f'{BOUND}<instance_geometry url="#g"/>'
+    (tmp_path / "m.dae").write_bytes(dae(twice, library=RED, bound='material="m"'))
     first = kept.parts_of(str(tmp_path / "m.dae"))
     monkeypatch.setattr(kept, "load", None)
-    (again,) = kept.parts_of(str(tmp_path / "m.dae"))
-    for one, other in zip(first[0][:2], again[:2], strict=True):
-        assert one.dtype == other.dtype
-        assert np.array_equal(one, other)
-    assert again.color == first[0].color
+    again = kept.parts_of(str(tmp_path / "m.dae"))
+    assert [part.color for part in again] == [part.color for part in first] == [0xFF0000, None]
+    for part, other in zip(first, again, strict=True):
+        for one, two in zip(part[:2], other[:2], strict=True):
+            assert one.dtype == two.dtype
+            assert np.array_equal(one, two)
     (entry,) = (tmp_path / "cache").glob("arm-mesh*")
     entry.write_bytes(entry.read_bytes()[:-1] + b"x")  # damaged: it is read anew
     cache._logged.add("entry")
@@ -148,9 +150,19 @@ HOSTILE = {
         "m.glb",
         "cannot be read|no triangles",
     ),
-    "not a number": (stl(TETRAHEDRON * np.nan), "m.stl", "finite vertices"),
+    "not a number": (stl(TETRAHEDRON * np.nan), "m.stl", "finite vertices|no triangles"),
     "too far": (stl(TETRAHEDRON * 1e30), "m.stl", "finite vertices within 1e"),
     "a vertex that does not exist": (obj(faces=FACES + 7), "m.obj", "cannot be read|exist"),
+    "numbers of no vertex": (
+        glb(
+            accessors=[
+                {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                {"bufferView": 0, "componentType": 5125, "count": 12, "type": "SCALAR"},
+            ]
+        ),
+        "m.glb",
+        "does not exist",
+    ),
     "no triangles": (b"v 0 0 0\n", "m.obj", "no triangles|cannot be read"),
     "cut off": (stl()[:-20], "m.stl", "cannot be read|no triangles"),
     "an unknown ending": (stl(), "m.mesh", "ends in .stl, .obj"),

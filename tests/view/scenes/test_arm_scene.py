@@ -101,6 +101,7 @@ def test_the_lines_of_a_chain_lie_on_its_screws_at_every_q(data):
             np.ptp(points, 0)
         )
         assert line.hung.link == k
+        assert off_axis(arm.joints[k].screw, in_the_world(arm, zero, line))[0] <= bound
     assert len(lines) == len(chain.kinds)
 
 
@@ -189,6 +190,18 @@ def test_a_glyph_shows_the_kind_of_its_joint():
         across = np.linalg.norm(node.vertices - point - along[:, None] * z, axis=1)
         ratios[joint.name] = np.ptp(along) / across.max()
     assert ratios["turn"] < 1.5 < ratios["thread"] < 3.0 < ratios["slide"]
+
+
+@pytest.mark.parametrize("pitch", [0.02, -0.02])
+def test_the_glyph_of_a_helical_joint_has_the_hand_of_its_screw(pitch):
+    """Its thread begins below for a right-handed one; the ends of the tube are the last vertices."""
+    screw = pk.screw.helical([0, 0, 1], [0, 0, 0], pitch)
+    scene = arm_scene(pk.Chain.from_space([screw], pk.se3.exp([0, 0, 0, 1, 0, 0])))
+    (glyph,) = (
+        node for node in of_kind(scene.nodes, Triangles, "skeleton") if node.hung.role == "joint"
+    )
+    start, end = glyph.vertices[-2:, 2]
+    assert math.copysign(1.0, end - start) == math.copysign(1.0, pitch)
 
 
 def test_the_rail_of_a_prismatic_joint_reaches_over_its_limits():
@@ -376,7 +389,8 @@ def test_the_joints_of_fingers_are_drawn_smaller_than_those_of_arms():
 
 
 BOXED = """<robot name="boxed">
-  <link name="base"><visual><geometry><box size="0.2 0.4 0.6"/></geometry></visual></link>
+  <link name="base"><visual><geometry><box size="0.2 0.4 0.6"/></geometry></visual>
+    <visual><geometry><mesh filename="package://nowhere/lid.stl"/></geometry></visual></link>
   <link name="arm">
     <visual><geometry><mesh filename="package://nowhere/arm.stl"/></geometry></visual>
     <visual><geometry><mesh filename="package://nowhere/cover.stl"/></geometry></visual>
@@ -401,7 +415,8 @@ def test_a_link_whose_mesh_is_not_found_is_a_bone_and_is_named():
     assert bone.min() < 0.0
     assert bone.max() > 1.0  # from the joint to the tip
     (said,) = (words for words in scene.words if words.startswith("Not drawn"))
-    assert "'package://nowhere/arm.stl', 'package://nowhere/cover.stl': no package" in said
+    names = "', 'package://nowhere/".join(["lid.stl", "arm.stl", "cover.stl"])
+    assert f"'package://nowhere/{names}': no package" in said
     assert "meshes" in scene.shown
     assert "skeleton" not in scene.shown
 

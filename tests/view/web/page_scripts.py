@@ -24,8 +24,7 @@ const print = (x) => console.log(JSON.stringify(x, (_, y) => ArrayBuffer.isView(
 
 def run(folder: Path, script: str, given: Any) -> Any:
     """What a script prints, as JSON, that has `page`, the functions of mathematics.js, and `given`."""
-    for file in WEB.glob("*.js"):
-        shutil.copy(file, folder)
+    shutil.copytree(WEB, folder, dirs_exist_ok=True)
     (folder / "package.json").write_text('{"type": "module"}')
     (folder / "given.json").write_text(
         json.dumps(given, default=np.ndarray.tolist, allow_nan=False)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ....groups import se3
 from .alignments import Alignments
 from .fit import fit
 from .hypotheses import Hypothesis, make_hypotheses, still, tool_behind
@@ -16,11 +17,16 @@ def with_link(pair: Sides, readings: list[Hypothesis]) -> list[Hypothesis]:
     """Readings with their last moved axes explained by one link; those of which that can be.
 
     There have to be two axes or more that moved by one motion, and the tool with them: that is what
-    a link of another length or twist does to all that is behind it.
+    a link of another length or twist does to all that is behind it. A slide, which has no place, may
+    be among them though it seems unmoved.
     """
     # Where nothing is in front, it is the base that moved.
-    tries = [(r, k) for r in readings for k in range(1, pair.n - 1) if r.moved[k:].all()]
+    behind_each = [(r, k) for r in readings for k in range(1, pair.n - 1)]
+    tries = [(r, k) for r, k in behind_each if (r.moved | pair.a.slides)[k:].all()]
     at = _alignments(pair, [reading for reading, _ in tries])
+    # What the axes leave free stays where it starts: with the tool where it is.
+    last = pair.carriers(at)[:, -1]
+    at.P[:] = pair.tool_as_it_stands.P @ se3.inverse(last) @ at.P
     ks = np.array([[k] for _, k in tries]).reshape(-1, 1)
     behind = np.arange(pair.n) >= ks
     fitted = fit(pair, at, False, behind)
@@ -38,14 +44,16 @@ def with_link(pair: Sides, readings: list[Hypothesis]) -> list[Hypothesis]:
 def with_front_link(pair: Sides, reading: Hypothesis) -> Hypothesis | None:
     """The reading with its first moved axes explained by one link behind them, or None.
 
-    These, two or more, have to agree with the base where it is: it is what stands behind the link
-    that has moved, and that is what the reading had been aligned to.
+    These, two or more, slides that seem unmoved among them, have to agree with the base where it is:
+    it is what stands behind the link that has moved, and that is what the reading had been aligned
+    to.
     """
-    agree = np.flatnonzero(~reading.moved)
-    k = int(agree.min(initial=pair.n))
+    first = np.logical_and.accumulate(reading.moved | pair.a.slides)
+    k = 1 + int(np.flatnonzero(first & reading.moved).max(initial=-1))
     if reading.link or not 2 <= k < pair.n:
         return None
     at = _alignments(pair, [reading])
+    at.P[:] = pair.as_they_stand.P
     front = np.arange(pair.n) < k
     fitted = fit(pair, at, False, front)
     (found,) = make_hypotheses(pair, fitted)

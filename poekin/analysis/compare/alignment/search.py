@@ -83,7 +83,7 @@ def search(
     # The reading of the models as they stand holds, and so there is one that does.
     found.sort(key=_cost)
     found = [r for r in found if r.moved.any() or poses_agree(pair, a, b, r)]
-    first = found[0]
+    first = _across_a_slide(pair, found[0])
     return _simpler(first, found), _others(first, found)
 
 
@@ -194,6 +194,16 @@ def _other_links(pair: Sides, found: list[Hypothesis]) -> list[Hypothesis]:
     few = several[:MOST_LINKED] + make_hypotheses(pair, pair.tool_as_it_stands)
     in_front = (with_front_link(pair, reading) for reading in few)
     return with_link(pair, few) + [reading for reading in in_front if reading is not None]
+
+
+def _across_a_slide(pair: Sides, reading: Hypothesis) -> Hypothesis:
+    """The reading, or the link that says the same as its one moved axis and the tool or base that
+    moved with it, between which a slide shows no motion.
+    """
+    if not reading.frames or reading.moved.sum() != 1:
+        return reading
+    (linked,) = with_link(pair, [reading]) or [with_front_link(pair, reading)]
+    return linked or reading
 
 
 def _conventions(pair: Sides) -> list[Hypothesis]:

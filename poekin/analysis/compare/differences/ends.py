@@ -71,6 +71,8 @@ def _fixed(
 def _without_joints(model: str, arm: Chosen, names: list[str]) -> Iterator[Remedy]:
     """The link behind joints that come first, and the one before joints that come last."""
     every = arm.chain.joint_names
+    if len(names) == len(every):  # the other model has none
+        return
     joints = {joint.name: joint for joint in arm.robot.joints}
     front = 0
     while every[front] in names:

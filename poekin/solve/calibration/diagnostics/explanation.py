@@ -167,7 +167,7 @@ def explained(problem: Problem, k: int) -> Explanation | None:
     tool = se3.exp(fit.p[: own.model_size])
     for T in moving:
         tool = tool @ T
-    moved = _size(tool)
+    moved = size_of(tool)
     if s.width <= 3:  # one point does not tell how the tool is turned
         moved = Size(moved.length)
     left = median(own.residuals(fit.p), 0)
@@ -195,7 +195,7 @@ def _base(s: Measurement, base: Array) -> Size | None:
         return None
     if isinstance(s, Distances):
         return Size(float(np.linalg.norm(base - s.centre)))
-    return _size(base)
+    return size_of(base)
 
 
 def _poses(T: Array, measured: Array) -> EyeInHand:
@@ -218,7 +218,8 @@ def _is_other_tool(found: Explanation, reach: float) -> bool:
     return shifted or tool.angle > np.fmax(TURN, _MORE * left.angle)
 
 
-def _size(T: Array) -> Size:
+def size_of(T: Array) -> Size:
+    """Distance and angle by which a pose (4, 4) moves its frame."""
     return Size(
         float(np.linalg.norm(T[:3, 3])),
         float(np.linalg.norm(so3.log(T[:3, :3]))),

@@ -12,6 +12,7 @@ import numpy as np
 from ....errors import InputError
 from ....groups.arrays import Array
 from ....model.chain import Chain
+from ....model.sampling import angle_mask
 from ..fit.fitting import fit_frames
 from ..measurements.measurement import Measurement
 from ..model.error_model import ErrorModel
@@ -101,8 +102,7 @@ def build_problem(model: ErrorModel, q: Array, sets: Sequence[Measurement]) -> P
 
 def converted(chain: Chain, q: Array, units: Units) -> Array:
     """Readings (N, m) in other units."""
-    angles = [chain.is_angle(k) for k in range(chain.dof)]
-    return q * np.where(angles, units.angle, units.slide)
+    return q * np.where(angle_mask(chain), units.angle, units.slide)
 
 
 def _tried(problem: Problem, units: Units) -> float:

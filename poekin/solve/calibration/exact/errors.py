@@ -11,8 +11,8 @@ import numpy as np
 
 from ....groups.arrays import Array
 from ....model.chain import Chain
+from ....model.sampling import angle_mask
 from ..fit.losses import chi_square
-from ..model.parameters import Mask
 from .bounds import ROUNDING, Propagation, ReadingErrors
 from .digits import MOST, Grid, RotationGrid, angle_grid, length_grid, rotation_grid
 
@@ -80,7 +80,7 @@ class _Expected(NamedTuple):
 
 def printed_digits(chain: Chain, q: Array, T: Array) -> Digits:
     """Digits of readings (N, m) and poses (N, 4, 4) as they were printed."""
-    turns = _turning(chain)
+    turns = angle_mask(chain)
     return Digits(
         angles=angle_grid(q[:, turns]) if turns.any() else None,
         lengths=length_grid(q[:, ~turns]) if not turns.all() else None,
@@ -190,13 +190,8 @@ def _deviations(fit: Propagation, left: Array) -> Array:
 
 def _joint_errors(digits: Digits, chain: Chain) -> Array:
     """Largest error (m,) of each coordinate, rad or m."""
-    return np.where(_turning(chain), _half(digits.angles), _half(digits.lengths))
+    return np.where(angle_mask(chain), _half(digits.angles), _half(digits.lengths))
 
 
 def _half(grid: Grid | None) -> float:
     return 0.0 if grid is None else grid.half
-
-
-def _turning(chain: Chain) -> Mask:
-    """Mask (m,) of the coordinates that are angles."""
-    return np.array([chain.is_angle(k) for k in range(chain.dof)], bool)

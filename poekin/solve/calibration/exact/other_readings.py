@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from ....errors import InputError, escape_unprintable, quote
-from ....groups import se3, so3
+from ....groups import se3
 from ....groups.arrays import Array
 from ....model.chain import Chain
+from ....model.sampling import angle_mask
 from ..calibration import Calibration
-from ..diagnostics.explanation import Size, far
+from ..diagnostics.explanation import Size, far, size_of
 from ..diagnostics.messages import MOST
 from ..fit import initial_guess
 from ..measurements.poses import Poses, pose_errors
@@ -45,8 +47,8 @@ def aligned(chain: Chain, q: Array, poses: Poses) -> Aligned:
         return Aligned(chain)
     return Aligned(
         moved,
-        f"the controller's frames are others: its base is moved by {_size(X)} from "
-        f"{quote(chain.base)}, its flange by {_size(Z)} from {quote(chain.tip)}, by the nominal arm",
+        f"the controller's frames are others: its base is moved by {size_of(X)} from "
+        f"{quote(chain.base)}, its flange by {size_of(Z)} from {quote(chain.tip)}, by the nominal arm",
     )
 
 
@@ -120,25 +122,21 @@ def _readings(chain: Chain, q: Array) -> Iterator[tuple[str, Array]]:
     or stand in another order.
     """
     names = [escape_unprintable(name, 40) for name in chain.q_names]
-    turns = [k for k in range(chain.dof) if chain.is_angle(k)]
-    for i in turns:
-        for j in turns:
-            for sign, word in ((1.0, "+"), (-1.0, "-")):
-                if i == j:
-                    continue
-                other = q.copy()
-                other[:, i] += sign * q[:, j]
-                words = f"{names[i]} = {names[i]} {word} {names[j]}"
-                yield f"the readings coupled, {words!r}", other
+    turns = np.flatnonzero(angle_mask(chain)).tolist()
+    for i, j in itertools.permutations(turns, 2):
+        for sign, word in ((1.0, "+"), (-1.0, "-")):
+            other = q.copy()
+            other[:, i] += sign * q[:, j]
+            words = f"{names[i]} = {names[i]} {word} {names[j]}"
+            yield f"the readings coupled, {words!r}", other
     for i in range(chain.dof):
         other = q.copy()
         other[:, i] *= -1.0
         yield f"{names[i]} reversed", other
-    for i in range(chain.dof):
-        for j in range(i):
-            other = q.copy()
-            other[:, [i, j]] = q[:, [j, i]]
-            yield f"{names[j]} and {names[i]} exchanged", other
+    for j, i in itertools.combinations(range(chain.dof), 2):
+        other = q.copy()
+        other[:, [i, j]] = q[:, [j, i]]
+        yield f"{names[j]} and {names[i]} exchanged", other
 
 
 def _frames(chain: Chain, q: Array, poses: Poses) -> tuple[Array, Array] | None:
@@ -154,10 +152,3 @@ def _miss(T: Array, measured: Array) -> Size:
     errors = pose_errors(T, measured).reshape(-1, 2, 3)
     angle, length = np.median(np.linalg.norm(errors, axis=2), axis=0).tolist()
     return Size(length, angle)
-
-
-def _size(T: Array) -> Size:
-    return Size(
-        float(np.linalg.norm(T[:3, 3])),
-        float(np.linalg.norm(so3.log(T[:3, :3]))),
-    )

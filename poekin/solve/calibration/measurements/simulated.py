@@ -186,21 +186,23 @@ def simulated(  # noqa: PLR0913 - options by keyword
         for_outliers,
         gross,
     )
-    frames = _random_frames(for_frames, chain.reach)
+    X, Z, centre = _random_frames(for_frames, chain.reach)
     measured = _measure(
         kind,
         truth.fk(q),
-        frames,
+        (X, Z, centre),
         body,
         unknown,
         sensor,
     )
+    unknown_frames = [frame.name for frame in measured.unknown_frames]
+    values = [centre] if kind == "distances" else [X, Z]
     return Simulated(
         truth=truth,
         parameters=read_only(p),
         q=read_only(q),
         measurements=measured,
-        frames={frame.name: frames.named(frame.name) for frame in measured.unknown_frames},
+        frames=dict(zip(unknown_frames, values, strict=False)),
         points=None if measured.angular else read_only(body),
         outliers=read_only(gross),
     )
@@ -209,31 +211,17 @@ def simulated(  # noqa: PLR0913 - options by keyword
 _HAND_EYE = {"eye-in-hand": EyeInHand, "eye-to-hand": EyeToHand}
 
 
-class _Frames(NamedTuple):
-    """T_base_fixed, T_tip_moving and the centre of distances."""
-
-    X: Array
-    Z: Array
-    centre: Array
-
-    def named(self, name: str) -> Array:
-        """The frame or point that measurements call so."""
-        if name == "centre":
-            return self.centre
-        if name.startswith("T_base"):
-            return self.X
-        return self.Z
-
-
 def _measure(
     kind: str,
     T: Array,
-    frames: _Frames,
+    frames: tuple[Array, ...],
     points: Array,
     unknown: bool,
     sensor: _Sensor,
 ) -> Measurement:
-    """Measurements of this kind at the true poses T (N, 4, 4)."""
+    """Measurements of this kind at the true poses T (N, 4, 4), of the frames X and Z or from the
+    centre.
+    """
     X, Z, centre = frames
     if kind == "poses":
         return Poses(sensor.poses(T), sensor.covariance(3, 3))
@@ -349,9 +337,9 @@ def _directions(rng: np.random.Generator, count: int) -> Array:
     return z / np.linalg.norm(z, axis=1, keepdims=True)
 
 
-def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
-    """X anywhere about the base; Z near the tip, by a tenth of the reach; a centre that the arm
-    does not come to.
+def _random_frames(rng: np.random.Generator, reach: float) -> tuple[Array, ...]:
+    """X = T_base_fixed anywhere about the base; Z = T_tip_moving near the tip, by a tenth of the
+    reach; a centre of distances that the arm does not come to.
     """
     angles = rng.uniform(0.5, 2.5, (2, 1))
     turns = so3.exp(angles * _directions(rng, 2))
@@ -359,11 +347,7 @@ def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
     X = se3.pose(turns[0], 0.7 * reach * directions[0])
     Z = se3.pose(turns[1], 0.1 * reach * directions[1])
     centre = 2.0 * reach * directions[2]
-    return _Frames(
-        read_only(X),
-        read_only(Z),
-        read_only(centre),
-    )
+    return tuple(map(read_only, (X, Z, centre)))
 
 
 def _deviations(

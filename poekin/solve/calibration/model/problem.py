@@ -135,20 +135,16 @@ class Problem:
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their Jacobian."""
         errors = self.errors(p)
-        jacobians = self._jacobians(
-            p,
-            self.q,
-            self.rows,
-            errors,
-        )
-        return list(map(Linear, errors, jacobians))
+        return list(map(Linear, errors, self.jacobians(p, errors=errors)))
 
     def jacobians(
         self,
         p: Array,
         q: Array | None = None,
+        errors: Sequence[Array] | None = None,
     ) -> list[Array]:
-        """The Jacobian (N, d, P) of each set as if the model were right: no measured value is used.
+        """The Jacobian (N, d, P) of each set, as if the model were right where no errors (N, d) are
+        given: no measured value is used.
 
         q (K, m): other readings, at each of which every set measures.
         """
@@ -157,17 +153,8 @@ class Problem:
             q = self.q
         else:
             rows = [np.arange(len(q))] * len(self.sets)
-        zeros = [np.zeros((len(r), s.width)) for r, s in zip(rows, self.sets, strict=True)]
-        return self._jacobians(p, q, rows, zeros)
-
-    def _jacobians(
-        self,
-        p: Array,
-        q: Array,
-        rows: Sequence[Rows],
-        errors: Sequence[Array],
-    ) -> list[Array]:
-        """The Jacobian (N, d, P) of the errors of each set, measured at these rows of q."""
+        if errors is None:
+            errors = [np.zeros((len(r), s.width)) for r, s in zip(rows, self.sets, strict=True)]
         T, D = self.model.poses_and_twists(p[: self.model_size], q)
         found = []
         for k, frames in enumerate(self._frames_of_sets(p)):

@@ -7,13 +7,13 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from .... import html_page
 from ....analysis.compare.compare import compare
 from ....analysis.compare.comparison import JointComparison
 from ....errors import ShapeError, escape_unprintable
 from ....groups import so3
 from ....groups.arrays import Array
-from ... import html_page
-from ...html_page import caption, figure, paragraph, text
+from ....html_page import caption, figure, paragraph, text
 from ..model.residuals import Residuals, largest, median, rms
 from ..result import CalibrationData
 from . import changes, plots

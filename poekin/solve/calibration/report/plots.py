@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .... import svg
 from ....groups.arrays import Array
-from ... import svg
-from ...svg import GRID, INK, PALE
+from ....svg import GRID, INK, PALE
 from ..fit.minimise import Step
 from .changes import AxisChange, MovableJoint, NamedResiduals
 

@@ -16,6 +16,7 @@ from ....formats.text import csv_rows
 from ....formats.text.atomic_write import FilePath, write_whole
 from ....groups.arrays import Array, numbers
 from ....model.chain import Chain
+from ....model.readings.coupled import joint_values
 from ....results import Result
 from ...ik.diagnosis import AT_LIMIT
 from ..csv_io import TIME, velocity_columns
@@ -74,6 +75,7 @@ class Trajectory(Result):
         "largest_speed",
         "largest_acceleration",
         "beyond_limits",
+        "joints_beyond_limits",
         "path_deviation",
     )
     left_out = ("chain",)
@@ -115,9 +117,12 @@ class Trajectory(Result):
     @cached_property
     def beyond_limits(self) -> Array:
         """Largest distance (m,) of each coordinate from the chain's limits, rad or m; 0 within."""
-        low, high = self.chain.limits.T
-        beyond = np.maximum(low - self.q, self.q - high).max(axis=0)
-        return np.where(beyond > AT_LIMIT, beyond, 0.0)
+        return _excess(self.q, self.chain.limits)
+
+    @cached_property
+    def joints_beyond_limits(self) -> Array:
+        """Largest distance (n,) of each joint from its own limits, rad or m; 0 within."""
+        return _excess(joint_values(self.chain, self.q), self.chain.joint_limits)
 
     @cached_property
     def path_deviation(self) -> float:
@@ -303,11 +308,18 @@ class Trajectory(Result):
         ]
 
     def _beyond(self) -> list[str]:
-        return [
-            f"{quote(name)} leaves its limits by {excess:.3g} (rad or m)"
-            for name, excess in zip(self.chain.q_names, self.beyond_limits, strict=True)
-            if excess > 0
-        ]
+        coordinates = zip(map(quote, self.chain.q_names), self.beyond_limits, strict=True)
+        joints = zip(self.chain.joint_names, self.joints_beyond_limits, strict=True)
+        said = [(f"{name} leaves its limits", excess) for name, excess in coordinates]
+        said += [(f"joint {quote(name)} leaves its own limits", excess) for name, excess in joints]
+        return [f"{words} by {excess:.3g} (rad or m)" for words, excess in said if excess > 0]
+
+
+def _excess(x: Array, limits: Array) -> Array:
+    """Largest distance (k,) of values (N, k) from limits (k, 2), 0 within."""
+    low, high = limits.T
+    beyond = np.maximum(low - x, x - high).max(axis=0)
+    return np.where(beyond > AT_LIMIT, beyond, 0.0)
 
 
 def _check_range(value: float, what: str, low: float, high: float) -> None:

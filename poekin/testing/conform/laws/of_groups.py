@@ -293,12 +293,7 @@ def adjoint_is_its_matrix(
     error = exact.exactly(X) - exact.adjoint(T)
     t = norm(T[:3, 3])
     corner = norm(error[3:, :3])
-    blocks = (
-        error[:3, :3],
-        error[3:, 3:],
-        error[:3, 3:],
-    )
-    rest = max(map(norm, blocks))
+    rest = max(map(norm, (error[:3, :3], error[3:, 3:], error[:3, 3:])))
     # R is there already; of [t] R each entry is a difference of two products.
     u = precision.unit
     parts = [

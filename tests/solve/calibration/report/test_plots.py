@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from poekin.solve import svg
+from poekin import svg
 from poekin.solve.calibration.fit.minimise import Step
 from poekin.solve.calibration.model.residuals import Residuals
 from poekin.solve.calibration.report import plots

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from string import Template
 
-from ..errors import escape_unprintable
+from .errors import escape_unprintable
 
 _PAGE = """<!doctype html>
 <html lang="en">

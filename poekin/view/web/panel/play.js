@@ -2,7 +2,7 @@
 //
 // Each class builds its part of the panel, `box`, from the scene; a page has those it has data for.
 import { button, element, fixed, section } from "./elements.js";
-import { alongPath } from "./mathematics.js";
+import { alongPath } from "../mathematics.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5];
 const MARK_WORDS = {
@@ -27,7 +27,7 @@ export function enablePlay(poekin, place, canvas) {
         canvas.append(exaggeration.badge);
     }
     if (scene.arms.length > 0 && scene.arms[0].tips.length > 0) {
-        place.append(dragWords(poekin));
+        (place.nextElementSibling ?? place).after(dragWords(poekin)); // below the sliders
     }
     poekin.on("change", () => leaveChoice(poekin));
 }

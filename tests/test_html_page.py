@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from poekin.solve import html_page
+from poekin import html_page
 
 
 def test_texts_are_escaped_and_keep_their_line_breaks():

@@ -1,7 +1,7 @@
 // A slider and a number box for each coordinate of the first arm, in the units that the reader chose.
 
 import { element } from "./elements.js";
-import { rangeOf } from "./mathematics.js";
+import { rangeOf } from "../mathematics.js";
 
 const UNITS = {
     rad: { "°": 180 / Math.PI, rad: 1 },

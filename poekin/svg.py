@@ -6,7 +6,7 @@ import io
 from collections.abc import Callable
 from typing import Any
 
-from ..errors import MissingExtra, escape_unprintable
+from .errors import MissingExtra, escape_unprintable
 
 INK = "#222222"
 PALE = "#9a9a9a"
@@ -27,19 +27,29 @@ def svg(
     text.
     Raises: MissingExtra without Matplotlib (extra `report`).
     """
-    try:
-        import matplotlib
-    except ModuleNotFoundError as missing:
-        raise MissingExtra("matplotlib", "report", purpose) from missing
-    from matplotlib.figure import Figure
-
     looks: Any = {"svg.fonttype": "none", "svg.hashsalt": "poekin", "font.size": size}
-    with matplotlib.rc_context(looks):
-        figure = Figure((width, height), layout="constrained")
+    with _matplotlib(purpose).rc_context(looks):
+        figure = new_figure(width, height, purpose)
         draw(figure)
         out = io.StringIO()
         figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
     return out.getvalue()
+
+
+def new_figure(width: float, height: float, purpose: str) -> Any:
+    """An empty figure of Matplotlib of this size (inches), that no window shows. Raises as `svg`."""
+    _matplotlib(purpose)
+    from matplotlib.figure import Figure
+
+    return Figure((width, height), layout="constrained")
+
+
+def _matplotlib(purpose: str) -> Any:
+    try:
+        import matplotlib
+    except ModuleNotFoundError as missing:
+        raise MissingExtra("matplotlib", "report", purpose) from missing
+    return matplotlib
 
 
 def inline(text: str) -> str:

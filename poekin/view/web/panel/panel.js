@@ -70,7 +70,7 @@ export class Panel {
             const swatch = element("span", { class: "swatch", style: `--color: ${color}` });
             return element("label", { class: "layer" }, input, swatch, element("span", { text: LAYERS[layer] }));
         });
-        return element("div", { class: "layers" }, ...boxes, ...this.clearSwitch());
+        return element("div", { class: "layers" }, ...boxes, ...this.clearSwitch(), ...this.cutter());
     }
 
     // The switch that lets a reader look into meshes.
@@ -82,6 +82,24 @@ export class Panel {
         input.addEventListener("change", () => this.poekin.drawing.seeThrough(input.checked));
         const swatch = element("span", { class: "swatch clear" });
         return [element("label", { class: "layer" }, input, swatch, element("span", { text: "See through" }))];
+    }
+
+    // A plane that cuts clouds, so that a reader looks into them.
+    cutter() {
+        if (!this.poekin.scene.objects.some((node) => node.kind === "cloud")) {
+            return [];
+        }
+        const texts = ["no cut", "cut across x", "cut across y", "cut across z"];
+        const options = texts.map((text, k) => element("option", { value: k, text }));
+        const axis = element("select", { "aria-label": "Cut the cloud" }, ...options);
+        const share = element("input", { type: "range", min: 0, max: 1, step: "any", value: 0.5, "aria-label": "Where the cloud is cut" });
+        const cut = () => {
+            const across = Number(axis.value) - 1;
+            this.poekin.drawing.cut(across < 0 ? null : across, Number(share.value));
+        };
+        axis.addEventListener("change", cut);
+        share.addEventListener("input", cut);
+        return [element("div", { class: "row cutter" }, axis, share)];
     }
 
     choiceList() {

@@ -1,7 +1,7 @@
 // The numbers of a configuration: pose of the tip, Jacobian, manipulability, limits, screws.
 
 import { element, figures, fixed, section } from "./elements.js";
-import { cross3, limitDistances, manipulability, positionOf, quaternionOf, rollPitchYaw, singularDirection } from "./mathematics.js";
+import { cross3, limitDistances, manipulability, positionOf, quaternionOf, rollPitchYaw, singularDirection } from "../mathematics.js";
 
 // All numbers of the selected tip, SI; J row by row (ω; v), columns of `coordinates`.
 export function numbersOf(scene, q, tip) {

@@ -1,0 +1,1 @@
+"""How chains and robots show themselves: a figure for print, tables for a notebook."""
