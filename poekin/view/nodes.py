@@ -11,20 +11,20 @@ Layer = Literal[
     "meshes", "skeleton", "axes", "frames", "labels", "jacobian", "ellipsoids", "singular", "path",
     "solutions", "differences", "cloud",
 ]  # fmt: skip
-"""What a reader of the page shows or hides as one."""
+"""Nodes that a reader of the page shows or hides as one."""
 
 Role = Literal[
     "first", "second", "joint", "linear", "angular", "differs", "path", "marked", "x", "y", "z"
 ]
-"""What a node stands for; its colour follows from it, unless it has one of its own."""
+"""Meaning of a node; its colour follows from it, unless it has one of its own."""
 
 Rule = Literal["column_v", "column_w", "ellipsoid_v", "ellipsoid_w", "singular", "target", "tip"]
-"""How the page moves a node that depends on the Jacobian or the tip's pose."""
+"""Rule by which the page moves a node that depends on the Jacobian or the tip's pose."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hung:
-    """Where a node is hung.
+    """Place of a node: what it hangs on, and what it stands for.
 
     Attributes
     ----------

@@ -98,7 +98,7 @@ def command(
 
 
 class ViewOptions(NamedTuple):
-    """What the command line asks for; see the options."""
+    """Options of the command line, as given."""
 
     tip: str | None
     base: str | None

@@ -1,1 +1,1 @@
-"""What a robot looks like, as data: shapes that hang on its links, and names of mesh files."""
+"""Looks of a robot as data: shapes that hang on its links, and names of mesh files."""

@@ -2,36 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
 
 import numpy as np
 
 from ...groups.arrays import Array
 from ..ik.diagnosis import AT_LIMIT
-
-EventKind = Literal["missed", "switch", "limit", "speed", "acceleration", "singular"]
-
-
-class PathEvent(NamedTuple):
-    """What happens on a path, and where.
-
-    Parameters
-    ----------
-    first, last : int
-        Numbers of the first and the last point.
-    kind : {"missed", "switch", "limit", "speed", "acceleration", "singular"}
-        Poses not reached, a change of branch, a coordinate at its limit, a rate or an acceleration
-        above it, or the neighbourhood of a singularity.
-    text : str
-        Sentence.
-    """
-
-    first: int
-    last: int
-    kind: EventKind
-    text: str
 
 
 @dataclass(frozen=True, order=True)
@@ -85,16 +62,6 @@ def intervals(
         )
         found.append(interval)
     return found
-
-
-def events_of(
-    kind: EventKind,
-    stretches: Iterable[PathInterval],
-    words: Callable[[PathInterval], str],
-) -> Iterator[PathEvent]:
-    """An event of a kind for each stretch, with its words."""
-    for s in stretches:
-        yield PathEvent(s.first, s.last, kind, words(s))
 
 
 def intervals_at_limits(x: Array, limits: Array, names: Sequence[str]) -> tuple[PathInterval, ...]:
