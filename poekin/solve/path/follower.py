@@ -19,6 +19,7 @@ from ..ik.least_error import least_error, slope_at
 from ..ik.solution import ITERATIONS, Names, Solution
 from ..ik.solver import solve
 from ..ik.task import TaskNames
+from ..joint_units import JointUnits
 from ..motion import paths
 
 PIECES = (8, 64, 512)
@@ -188,10 +189,12 @@ class Follower:
             done = self._steps(targets[:1], start, q, np.full_like(start, np.inf))
             return done and 1 + self._descend(targets[1:], q[0], q[1:])
         done = self._steps(targets, start, q, self.most)
-        slid = self.problem.by_joints is not None
-        while slid and done < len(targets):
+        joints = self.problem.by_joints
+        slid = 1
+        while joints is not None and slid and done < len(targets):
             # Joints' own limits in the way: along them a path slides in the values of the joints.
-            slid = self._slide(targets[done:], q[done - 1] if done else start, q[done:])
+            last = q[done - 1] if done else start
+            slid = self._slide(joints, targets[done:], last, q[done:])
             done += slid
             if slid and done < len(targets):
                 done += self._steps(targets[done:], q[done - 1], q[done:], self.most)
@@ -210,12 +213,16 @@ class Follower:
         beyond = np.flatnonzero(~self.problem.keeps_joints(q[:done]))
         return min([done, *beyond.tolist()])
 
-    def _slide(self, targets: Array, start: Array, q: Array) -> int:
+    def _slide(
+        self,
+        joints: JointUnits,
+        targets: Array,
+        start: Array,
+        q: Array,
+    ) -> int:
         """Number of targets that are followed in the values of the joints, until a coordinate
         leaves its limits.
         """
-        joints = self.problem.by_joints
-        assert joints is not None
         fast = joints.fast
         x = np.empty_like(q)
         most = joints.of_steps(self.most)
