@@ -193,7 +193,8 @@ class Follower:
         slid = 1
         while joints is not None and slid and done < len(targets):
             # Joints' own limits in the way: along them a path slides in the values of the joints.
-            slid = self._slide(joints, targets[done:], q[done - 1] if done else start, q[done:])
+            last = q[done - 1] if done else start
+            slid = self._slide(joints, targets[done:], last, q[done:])
             done += slid
             if slid and done < len(targets):
                 done += self._steps(targets[done:], q[done - 1], q[done:], self.most)
@@ -212,7 +213,13 @@ class Follower:
         beyond = np.flatnonzero(~self.problem.keeps_joints(q[:done]))
         return min([done, *beyond.tolist()])
 
-    def _slide(self, joints: JointUnits, targets: Array, start: Array, q: Array) -> int:
+    def _slide(
+        self,
+        joints: JointUnits,
+        targets: Array,
+        start: Array,
+        q: Array,
+    ) -> int:
         """Number of targets that are followed in the values of the joints, until a coordinate
         leaves its limits.
         """

@@ -106,14 +106,16 @@ def test_in_the_values_of_its_joints_a_path_goes_on_until_a_reading_leaves_its_l
     T = ARM.fk(x)
     readings = np.linalg.solve(COUPLED.coupling, x.T).T
     problem = make_problem(COUPLED.compile(), SETTINGS)
+    assert problem.by_joints is not None
     within = int((readings[:, 1] <= 1.0).sum())
     assert 5 < within < 40
     q = np.empty((40, 3))
     f = follower.Follower(problem, T, np.full(3, 0.1), None)
-    assert f._slide(T[1:], readings[0], q) == within - 1
+    assert f._slide(problem.by_joints, T[1:], readings[0], q) == within - 1
     np.testing.assert_allclose(q[: within - 1], readings[1:within], rtol=0, atol=1e-8)
     # A step of 0.025 rad of joint a may go with one of b: half of what a reading may is left to each.
-    assert follower.Follower(problem, T, np.full(3, 0.04), None)._slide(T[1:], readings[0], q) == 0
+    f.most[:] = 0.04
+    assert f._slide(problem.by_joints, T[1:], readings[0], q) == 0
     assert make_problem(COUPLED.compile(), SETTINGS._replace(limits=False)).by_joints is None
     assert one().problem.by_joints is None
 
@@ -124,7 +126,8 @@ def test_a_path_goes_on_within_readings_limits_and_joints_by_turns_until_neither
     calls: list[tuple[str, int, list[float]]] = []
 
     def way(name: str) -> Any:
-        def follow(targets: np.ndarray, start: np.ndarray, q: np.ndarray, *most: Any) -> int:
+        def follow(*arrays: Any) -> int:
+            targets, start, q = arrays[1:] if name == "slide" else arrays[:3]
             k = 9 - len(targets)
             calls.append((name, k, start.tolist()))
             count = ends[name][k]
