@@ -23,7 +23,17 @@ from ..motion.csv_io import Path, write_joints
 from ..motion.parameterization.time_optimal import time_optimal
 from ..motion.plot import plot_joints
 from ..motion.trajectory.trajectory import Trajectory
-from .path_interval import PathEvent, PathInterval, events_of, intervals, intervals_at_limits
+from .path_interval import (
+    PathEvent,
+    PathInterval,
+    events_of,
+    excess_words,
+    intervals,
+    intervals_at_limits,
+    joint_limit_words,
+    limit_words,
+    stretch_words,
+)
 
 NEAR_SINGULAR = 1e-2
 """Smallest ÷ largest singular value of the Jacobian, lengths ÷ reach, below which a singularity is
@@ -286,13 +296,13 @@ class PathResult(Result):
         return (
             *self._missed(),
             *(PathEvent(k, k, "switch", self._switch(k)) for k in self.branch_switches),
-            *events_of("limit", self.at_limits, _at_limit),
-            *events_of("limit", self.joints_at_limits, _joint_at_limit),
-            *events_of("speed", self.speed_violations, lambda s: _exceeds(s, "speed", "s")),
+            *events_of("limit", self.at_limits, limit_words),
+            *events_of("limit", self.joints_at_limits, joint_limit_words),
+            *events_of("speed", self.speed_violations, lambda s: excess_words(s, "speed", "s")),
             *events_of(
                 "acceleration",
                 self.acceleration_violations,
-                lambda s: _exceeds(s, "acceleration", "s^2"),
+                lambda s: excess_words(s, "acceleration", "s^2"),
             ),
             *events_of("singular", self.near_singular, self._singular),
         )
@@ -323,7 +333,7 @@ class PathResult(Result):
         missed = ~self.success & ~bad
         for s in sorted(intervals(bad, size, size) + intervals(missed, size, size)):
             where = "" if s.first == s.last else f", least of all {s.worst}"
-            text = f"{_points(s)} not reached{where}: {self.solution.summary(s.worst)}"
+            text = f"{stretch_words(s)} not reached{where}: {self.solution.summary(s.worst)}"
             yield PathEvent(s.first, s.last, "missed", text)
 
     def _switch(self, k: int) -> str:
@@ -336,7 +346,7 @@ class PathResult(Result):
         )
 
     def _singular(self, s: PathInterval) -> str:
-        where = f"{_points(s)}: near a singularity, most at {s.worst}"
+        where = f"{stretch_words(s)}: near a singularity, most at {s.worst}"
         # `singularity` has no part with the rows of the other tasks
         if self.task.name in ("pose", "position", "rotation"):
             free = np.isnan(self._locked)
@@ -387,22 +397,3 @@ class PathResult(Result):
             size = np.abs(values[:, k])
             found += intervals(size > bounds[k], size, size, bounds[k], name, shift)
         return tuple(sorted(found))
-
-
-def _at_limit(s: PathInterval) -> str:
-    return f"{_points(s)}: {quote(s.name)} at its limit {s.bound:.6g}"
-
-
-def _joint_at_limit(s: PathInterval) -> str:
-    return f"{_points(s)}: joint {quote(s.name)} at its own limit {s.bound:.6g}"
-
-
-def _exceeds(s: PathInterval, what: str, unit: str) -> str:
-    return (
-        f"{_points(s)}: {quote(s.name)} exceeds its {what}, "
-        f"{s.value:.4g} of {s.bound:.4g} (rad or m)/{unit} at {s.worst}"
-    )
-
-
-def _points(s: PathInterval) -> str:
-    return f"pose {s.first}" if s.first == s.last else f"poses {s.first} to {s.last}"
