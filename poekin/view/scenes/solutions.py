@@ -16,9 +16,9 @@ from ..nodes import Node, Role, Triangles
 from ..scene import Scene, SceneChoice
 from .arm_parts.of_chain import chain_geometry
 from .arm_parts.skeleton import glyph_radii, skeleton_nodes
-from .two_arms.overlay import moved_node
 from .stage import Stage, make_stage
 from .targets import MOST, asked_of, configuration_words, target_nodes
+from .two_arms.overlay import moved_node
 
 GHOST = 0.3
 """Opacity of a solution that is not the present one."""
