@@ -48,7 +48,10 @@ def faults(name: str) -> list[Fault]:
         waived |= PARAMETERS
     elif overrides(name):
         waived |= OVERRIDING
-    found = [Fault(name, *error) for error in validate(name)["errors"] if error[0] not in waived]
+    where = name
+    if name in sys.modules and inspect.isfunction(thing):  # numpydoc would take the module
+        where = f"{thing.__module__}.{thing.__name__}"
+    found = [Fault(name, *error) for error in validate(where)["errors"] if error[0] not in waived]
     if of_class and not issubclass(thing, (BaseException, enum.Enum)):
         found += [Fault(name, "PR01", f"field {field!r} not documented") for field in untold(thing)]
     return found

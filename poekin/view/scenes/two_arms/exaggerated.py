@@ -56,7 +56,7 @@ class Exaggerated(NamedTuple):
 
 
 def zeros_and_directions(found: Comparison) -> tuple[Array, Array]:
-    """Where b's joints stand when a's are at 0, rad or m, and their signs, ±1."""
+    """Positions of b's joints when a's are at 0, rad or m, and their signs, ±1."""
     zeros = np.array([joint.zero_offset for joint in found.joints])
     return zeros, np.array([-1.0 if joint.reversed else 1.0 for joint in found.joints])
 
