@@ -25,10 +25,13 @@ from pathlib import Path
 
 import pytest
 
+from poekin.cli import run as run_poekin
+
 ROOT = Path(__file__).resolve().parent.parent
 
 SOURCE = "<README.md>"
 RUN = ("poekin", "python")
+PLAIN = re.compile(r"poekin ([^|&;<>$`()*?~\\]+)(\|.*)?")
 NOT_CODE = ("text", "math", "bibtex")
 SET_UP = (
     r"git clone \S+",
@@ -151,12 +154,31 @@ def compare(printed: str, expected: str, where: str) -> None:
 
 
 def output_of(command: str, place: Path, where: str) -> str:
+    """What a command prints, poekin's in this process where it needs nothing of a shell but a pipe
+    behind it.
+    """
+    given = ""
+    plain = PLAIN.fullmatch(command)
+    if plain:
+        out = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+        err = io.StringIO()
+        with contextlib.chdir(place), contextlib.redirect_stdout(out):
+            with contextlib.redirect_stderr(err):
+                code = run_poekin(shlex.split(plain[1]))
+            out.flush()
+        given = out.buffer.getvalue().decode()
+        if code and not plain[2]:
+            raise AssertionError(f"{where}: exit code {code}: {command}\n{err.getvalue()}")
+        if not plain[2]:
+            return given
+        command = f"cat {plain[2]}"
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
     environment = {**os.environ, "PATH": path, "NO_COLOR": "1", "PYTHONWARNINGS": "error"}
     done = subprocess.run(
         ["bash", "-c", command],
         cwd=place,
         env=environment,
+        input=given,
         capture_output=True,
         text=True,
         timeout=300,
