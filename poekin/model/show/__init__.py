@@ -1,1 +1,1 @@
-"""How chains and robots show themselves: a figure for print, tables for a notebook."""
+"""Chains and robots as a figure for print and as tables for a notebook."""

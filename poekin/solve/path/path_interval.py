@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import quote
 from ...groups.arrays import Array
 from ..ik.diagnosis import AT_LIMIT
 
@@ -73,26 +72,3 @@ def intervals_at_limits(x: Array, limits: Array, names: Sequence[str]) -> tuple[
             off = np.abs(values - bound)
             found += intervals(off <= AT_LIMIT, values, -off, bound, name)
     return tuple(sorted(found))
-
-
-def limit_words(s: PathInterval) -> str:
-    """Sentence on a coordinate at its limit."""
-    return f"{stretch_words(s)}: {quote(s.name)} at its limit {s.bound:.6g}"
-
-
-def joint_limit_words(s: PathInterval) -> str:
-    """Sentence on a joint at its own limit."""
-    return f"{stretch_words(s)}: joint {quote(s.name)} at its own limit {s.bound:.6g}"
-
-
-def excess_words(s: PathInterval, what: str, unit: str) -> str:
-    """Sentence on a rate or an acceleration above its limit."""
-    return (
-        f"{stretch_words(s)}: {quote(s.name)} exceeds its {what}, "
-        f"{s.value:.4g} of {s.bound:.4g} (rad or m)/{unit} at {s.worst}"
-    )
-
-
-def stretch_words(s: PathInterval) -> str:
-    """Words such as "poses 3 to 5"."""
-    return f"pose {s.first}" if s.first == s.last else f"poses {s.first} to {s.last}"

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from poekin.formats.visuals.visual import LeftOut
 
 import poekin as pk
 from poekin.analysis.axis_lines import uncoupled_at_zero
 from poekin.errors import InputError, ShapeError, UnknownName
+from poekin.formats.visuals.visual import LeftOut
 from poekin.testing.strategies.chain_strategies import chains, coordinates
 from poekin.view.nodes import Cloud, Label, Node, Polyline, Triangles
 from poekin.view.scene import Scene, Slider

@@ -16,7 +16,7 @@ from .geometry import ArmGeometry, JointGeometry
 LARGEST = 0.04
 """Radius of a joint's glyph as a share of the arm's size."""
 SMALLEST = 0.006
-"""The same, of joints that stand close together."""
+"""Likewise of joints that stand close together."""
 COINCIDENT = 0.01
 """Distance, as a share of the arm's size, up to which joints are taken for one place."""
 LONGEST_RAIL = 20.0
