@@ -48,7 +48,7 @@ class Opened:
         self.faults: list[str] = []
         self.context = browser.new_context(offline=True, has_touch=True)
         self.tab = self.context.new_page()
-        self.tab.set_default_timeout(20_000)
+        self.tab.set_default_timeout(60_000)
         self.look()
         self.tab.on("console", self._heard)
         self.tab.on("pageerror", lambda fault: self.faults.append(str(fault)))
