@@ -464,7 +464,7 @@ def test_a_live_page_is_small_and_has_a_still(name, tmp_path):
     assert (tmp_path / f"{name}.html").stat().st_size < 2_000_000
     still = (tmp_path / f"{name}.svg").read_text(encoding="utf-8")
     assert ElementTree.fromstring(still).tag.endswith("svg")
-    assert still == docs_pages.svg_of(docs_pages.EXAMPLES[name]()[1])
+    assert still == docs_pages.svg_of(docs_pages.EXAMPLES[name]()[1], **docs_pages.TIGHT)
 
 
 def test_a_chart_shows_where_the_hasty_formula_is_wrong():

@@ -1,6 +1,7 @@
 """Live pages of docs/: models and results of poekin as pages that move, and a still of each.
 
-Run it to look at them: python -m tools.docs_pages DIRECTORY
+Run it to look at them: python -m tools.docs_pages DIRECTORY. Without a directory it makes README.md's
+picture anew.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from poekin.view import Page
 OTHER, MARKED, PALE = "#0072B2", "#D55E00", "#9a9a9a"
 PANDA = (0.0, -0.5, 0.0, -2.0, 0.0, 1.6, 0.8)
 UR5E = (0.4, -1.2, 1.5, -0.3, 0.8, 0.0)
+README_PICTURE = Path(__file__).parent.parent / "docs" / "_static" / "panda.svg"
 TIGHT = {"bbox_inches": "tight", "pad_inches": 0.05}
 ENLARGED = 20
 """Factor by which the stills draw a difference of two arms."""
@@ -206,11 +208,11 @@ EXAMPLES: dict[str, Callable[[], Made]] = {
 """What is shown, by the name of its page."""
 
 
-def svg_of(figure: Any) -> str:
-    """A figure of Matplotlib as SVG text, the same for the same figure."""
+def svg_of(figure: Any, **how: Any) -> str:
+    """A figure of Matplotlib as SVG text, the same for the same figure; how: as for `savefig`."""
     out = io.StringIO()
     with matplotlib.rc_context({"svg.hashsalt": "poekin"}):
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None}, **TIGHT)
+        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None}, **how)
     return out.getvalue()
 
 
@@ -220,8 +222,16 @@ def write(folder: Path, names: Iterable[str] = EXAMPLES) -> None:
     for name in names:
         page, figure = EXAMPLES[name]()
         page.save(folder / f"{name}.html")
-        (folder / f"{name}.svg").write_text(svg_of(figure), encoding="utf-8")
+        (folder / f"{name}.svg").write_text(svg_of(figure, **TIGHT), encoding="utf-8")
+
+
+def readme_picture() -> str:
+    """The picture that the first code of README.md makes, as SVG text."""
+    return svg_of(arm("panda", "panda_hand").plot(PANDA, size=(4, 4)))
 
 
 if __name__ == "__main__":
-    write(Path(sys.argv[1]))
+    if sys.argv[1:]:
+        write(Path(sys.argv[1]))
+    else:
+        README_PICTURE.write_text(readme_picture(), encoding="utf-8")
