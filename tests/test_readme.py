@@ -166,7 +166,7 @@ def output_of(command: str, place: Path, where: str) -> str:
         err = io.StringIO()
         with contextlib.chdir(place), contextlib.redirect_stdout(out):
             with contextlib.redirect_stderr(err):
-                code = run_poekin(shlex.split(plain[1]))
+                code = run_poekin(shlex.split(plain[1], comments=True))
             out.flush()
         given = out.buffer.getvalue().decode()
         if code and not plain[2]:
