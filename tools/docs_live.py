@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from html import escape
 
-from docutils.nodes import Node, raw
+from docutils.nodes import Element, Node, raw
+from docutils.parsers.rst import Directive
 from docutils.parsers.rst.directives import flag
-from sphinx.util.docutils import SphinxDirective
 
 from tools.docs_pages import EXAMPLES
 
@@ -28,7 +28,7 @@ TOGGLE = (
 END = '<a href="{place}.html">The page by itself</a></figcaption></figure>'
 
 
-class Live(SphinxDirective):
+class Live(Directive):
     """A page of `tools/docs_pages.py` with its caption."""
 
     required_arguments = 1
@@ -39,7 +39,8 @@ class Live(SphinxDirective):
         name = self.arguments[0]
         if name not in EXAMPLES:
             raise self.error(f"live: expected one of {', '.join(EXAMPLES)}, got {name}")
-        place = "../" * self.env.docname.count("/") + f"live/{name}"
+        page = self.state.document.settings.env.docname
+        place = "../" * page.count("/") + f"live/{name}"
         words = {
             "place": place,
             "toggle": TOGGLE.format(place=place),
@@ -48,4 +49,6 @@ class Live(SphinxDirective):
         }
         begin = raw("", FIGURE.format(**words), format="html")
         end = raw("", END.format(**words), format="html")
-        return [begin, *self.parse_content_to_nodes(), end]
+        caption = Element()
+        self.state.nested_parse(self.content, self.content_offset, caption)
+        return [begin, *caption.children, end]
