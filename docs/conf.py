@@ -12,7 +12,17 @@ from docutils.nodes import SkipNode  # noqa: E402
 from docutils.utils.math import latex2mathml  # noqa: E402
 
 import poekin  # noqa: E402
-from tools import docs_drawings, docs_equations, docs_floors, docs_names, docs_paper, docs_render  # noqa: E402
+from tools import (  # noqa: E402
+    docs_charts,
+    docs_drawings,
+    docs_equations,
+    docs_floors,
+    docs_names,
+    docs_pages,
+    docs_paper,
+    docs_render,
+)
+from tools.docs_live import Live  # noqa: E402
 
 project = "poekin"
 author = copyright = "the poekin authors"
@@ -39,6 +49,7 @@ html_title = f"poekin {release}"
 html_show_sphinx = False
 html_copy_source = False
 html_static_path = ["_static"]
+html_extra_path = ["_generated/extra"]
 html_css_files = ["page.css"]
 html_math_renderer = "mathml"
 
@@ -89,6 +100,7 @@ def setup(app):
     for name, text in {
         "floors.md": docs_floors.page(),
         "paper.md": docs_paper.page(),
+        **docs_charts.charts(),
         **docs_drawings.drawings(),
         **reference,
     }.items():
@@ -96,6 +108,8 @@ def setup(app):
         file.parent.mkdir(exist_ok=True)
         if not file.exists() or file.read_text(encoding="utf-8") != text:
             file.write_text(text, encoding="utf-8")
+    docs_pages.write(generated / "extra" / "live")
+    app.add_directive("live", Live)
     app.connect("autodoc-process-docstring", render)
     app.connect("autodoc-skip-member", skip)
     app.add_html_math_renderer("mathml", (visit_math, None), (visit_displaymath, None))

@@ -23,7 +23,15 @@ from tests import test_readme as readme
 from tests.test_architecture import FLOORS
 from tests.test_packaging import pins
 from tests.versions import SHRINKS, needs
-from tools import docs_drawings, docs_equations, docs_floors, docs_names, docs_render
+from tools import (
+    docs_charts,
+    docs_drawings,
+    docs_equations,
+    docs_floors,
+    docs_names,
+    docs_pages,
+    docs_render,
+)
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
@@ -114,7 +122,8 @@ def lost_anchors(page: Path) -> list[str]:
 def dead(page: Path) -> list[str]:
     """Links and figures of a page that lead nowhere; what is made at the build counts as there."""
     text = page.read_text(encoding="utf-8")
-    made = {f"_generated/{n}" for n in docs_drawings.drawings()} | {
+    pictures = {**docs_drawings.drawings(), **docs_charts.charts()}
+    made = {f"_generated/{n}" for n in pictures} | {
         "_generated/floors.md",
         "_generated/paper.md",
     }
@@ -128,12 +137,22 @@ def dead(page: Path) -> list[str]:
         inside = target.relative_to(DOCS).as_posix() if target.is_relative_to(DOCS) else ""
         if inside not in made and not target.exists() and not target.with_suffix(".md").exists():
             lost.append(name)
-    return lost
+    live = re.findall(r"^:::\{live\} (\S+)", text, re.MULTILINE)
+    return lost + [name for name in live if name not in docs_pages.EXAMPLES]
 
 
 @pytest.mark.parametrize("page", PAGES + BESIDE)
 def test_a_page_links_to_what_exists(page):
     assert dead(ROOT / page) == []
+
+
+def test_every_how_to_page_has_a_picture_and_the_gallery_has_every_live_page():
+    texts = {page: (ROOT / page).read_text(encoding="utf-8") for page in PAGES}
+    pictured = re.compile(r"^::::?\{(?:live|figure)\} ", re.MULTILINE)
+    wanted = [page for page in PAGES if "/howto/" in page] + ["docs/index.md"]
+    assert [page for page in wanted if not pictured.search(texts[page])] == []
+    shown = re.findall(r"^:::\{live\} (\S+)$", texts["docs/howto/gallery.md"], re.MULTILINE)
+    assert sorted(shown) == sorted(docs_pages.EXAMPLES)
 
 
 @pytest.mark.parametrize("page", [*PAGES, *BESIDE, "README.md"])
@@ -157,10 +176,11 @@ def test_every_page_is_in_the_index():
 
 def test_a_dead_link_is_caught(tmp_path):
     (tmp_path / "page.md").write_text(
-        "[a](gone.md)\n:::{figure} ../gone.svg\n:::\n:::{toctree}\n:hidden:\n\npage\nlost\n:::\n",
+        "[a](gone.md)\n:::{figure} ../gone.svg\n:::\n:::{toctree}\n:hidden:\n\npage\nlost\n:::\n"
+        ":::{live} panda\n:::\n:::{live} pandas\n:::\n",
         encoding="utf-8",
     )
-    assert dead(tmp_path / "page.md") == ["gone.md", "../gone.svg", "lost"]
+    assert dead(tmp_path / "page.md") == ["gone.md", "../gone.svg", "lost", "pandas"]
 
 
 def test_a_link_to_a_heading_that_is_gone_is_caught(tmp_path):
@@ -432,3 +452,26 @@ def test_the_view_of_the_drawings_is_a_rotation_that_keeps_vertical_lines_vertic
     assert np.allclose(
         pk.so3.exp(pk.so3.log(docs_drawings.VIEW)), docs_drawings.VIEW, rtol=0, atol=1e-15
     )
+
+
+# The live pages.
+
+
+@pytest.mark.parametrize("name", ["ur5e", "compare"])
+def test_a_live_page_is_small_and_has_a_still(name, tmp_path):
+    docs_pages.write(tmp_path, [name])
+    assert "poekin-scene" in (tmp_path / f"{name}.html").read_text(encoding="utf-8")
+    assert (tmp_path / f"{name}.html").stat().st_size < 2_000_000
+    still = (tmp_path / f"{name}.svg").read_text(encoding="utf-8")
+    assert ElementTree.fromstring(still).tag.endswith("svg")
+    assert still == docs_pages.svg_of(docs_pages.EXAMPLES[name]()[1], **docs_pages.TIGHT)
+
+
+def test_a_chart_shows_where_the_hasty_formula_is_wrong():
+    angle = np.array([1e-12, 0.99e-5, 1e-5, 1.0])
+    error = docs_charts.hasty_error(angle, np.ones(4))
+    # V v − v is |ω| |v| / 2 to first order, and rotated
+    assert error[:2] == pytest.approx(angle[:2] / 2, rel=1e-3)
+    assert (error[2:] == 0).all()
+    for chart in docs_charts.charts().values():
+        assert ElementTree.fromstring(chart).tag.endswith("svg")

@@ -19,12 +19,14 @@ import sys
 import tomllib
 import traceback
 import warnings
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
+import poekin as pk
 from poekin.cli import run as run_poekin
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -164,7 +166,7 @@ def output_of(command: str, place: Path, where: str) -> str:
         err = io.StringIO()
         with contextlib.chdir(place), contextlib.redirect_stdout(out):
             with contextlib.redirect_stderr(err):
-                code = run_poekin(shlex.split(plain[1]))
+                code = run_poekin(shlex.split(plain[1], comments=True))
             out.flush()
         given = out.buffer.getvalue().decode()
         if code and not plain[2]:
@@ -228,8 +230,9 @@ def run(text: str, place: Path, root: Path = ROOT) -> dict[str, int]:
 
 
 def missing_links(text: str, root: Path) -> list[str]:
-    """Relative links to files that do not exist."""
+    """Relative links to files that do not exist, and pictures."""
     links = re.findall(r"\]\(([^)\s#]+)(?:#[^)]*)?\)", text)
+    links += re.findall(r'<img src="([^"]+)"', text)
     return [link for link in links if "://" not in link and not (root / link).exists()]
 
 
@@ -238,6 +241,42 @@ def test_the_readme_runs_and_prints_what_it_says(tmp_path, monkeypatch):
     counts = run((ROOT / "README.md").read_text(encoding="utf-8"), tmp_path)
     assert counts.get("python", 0) >= 1
     assert counts.get("sh", 0) + counts.get("console", 0) >= 1
+    picture = (ROOT / "docs" / "_static" / "panda.svg").read_text(encoding="utf-8")
+    assert len(picture) <= 100_000
+    assert same_picture((tmp_path / "panda.svg").read_text(encoding="utf-8"), picture)
+    assert "connect-src" in (tmp_path / "panda.html").read_text(encoding="utf-8")
+
+
+def same_picture(one: str, other: str) -> bool:
+    """Whether two figures of Matplotlib show the same: as many lines, the same words, and lines
+    that begin and bend within 3 pt of each other, whatever the version.
+    """
+    (parts, words, points), (others, other_words, other_points) = drawn(one), drawn(other)
+    if parts != others or words != other_words or not len(points) == len(other_points) > 4:
+        return False
+    return all(abs(a - b) <= 3 for a, b in zip(points, other_points, strict=True))
+
+
+def drawn(picture: str) -> tuple[Counter[str], list[str], list[float]]:
+    """Numbers of groups by kind, the words, and the coordinates of the arm's line."""
+    parts = Counter(re.findall(r'<g id="(line2d|text|patch)_\d+"', picture))
+    line = re.search(r'<path d="([^"]+)"[^>]*stroke: ?#9a9a9a', picture)
+    return parts, re.findall(r"<!-- (.*?) -->", picture), numbers(line[1] if line else "")
+
+
+def numbers(path: str) -> list[float]:
+    return [float(x) for x in re.findall(r"-?[\d.]+", path)]
+
+
+def test_another_picture_is_caught():
+    arm = pk.load("panda").chain(tip="panda_hand")
+    pictures = []
+    for q in ([0, -0.5, 0, -2, 0, 1.6, 0.8], [0, -0.6, 0, -2, 0, 1.6, 0.8]):
+        arm.plot(q).savefig(out := io.StringIO(), format="svg")
+        pictures.append(out.getvalue())
+    assert same_picture(pictures[0], pictures[0].replace("-->", "-->\n"))
+    assert not same_picture(*pictures)
+    assert not same_picture(pictures[0], pictures[0].replace("panda_hand", "hand"))
 
 
 def test_the_readme_links_to_files_that_exist():
@@ -318,4 +357,5 @@ def test_a_sound_readme_is_accepted(tmp_path, monkeypatch):
 def test_a_dead_link_is_caught(tmp_path):
     (tmp_path / "there.md").touch()
     text = "[a](there.md) [b](there.md#part) [c](https://example.com/x) [d](gone.md) ![e](gone.png)"
-    assert missing_links(text, tmp_path) == ["gone.md", "gone.png"]
+    text += '<img src="gone.svg">'
+    assert missing_links(text, tmp_path) == ["gone.md", "gone.png", "gone.svg"]
