@@ -55,9 +55,10 @@ def snapshot(objects: Sequence[DrawnObject], script: str) -> str:
     """
     try:
         import k3d
+        from k3d.factory import plot as new_plot  # k3d.plot is a module as well
     except ImportError as missing:
         raise MissingExtra("k3d", "view", "drawing a page") from missing
-    plot: Any = k3d.plot(
+    plot: Any = new_plot(
         grid_visible=False,
         menu_visibility=False,
         camera_auto_fit=False,

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from ..groups.arrays import Array
 
 Layer = Literal[
@@ -68,7 +70,7 @@ class Triangles:
 
     hung: Hung
     vertices: Array
-    faces: Array
+    faces: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)

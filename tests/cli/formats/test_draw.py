@@ -57,7 +57,8 @@ def test_the_page_is_written_and_the_result_printed_as_without(name, lines, poek
     else:
         assert drawn == (code, out + told, err)
     text = page.read_text(encoding="utf-8")
-    scene = json.loads(re.search(r'id="poekin-scene">(.*?)</script>', text)[1])
+    (data,) = re.findall(r'id="poekin-scene">(.*?)</script>', text)
+    scene = json.loads(data)
     assert len(scene["arms"]) == (2 if name in ("compare", "calibrate") else 1)
     if name in ("singularity", "ik", "follow"):  # in its robot, with the fingers
         assert len(scene["q"]) == 8

@@ -34,7 +34,8 @@ def scene(poekin, tmp_path):
         assert (code, err) == (0, "")
         assert out == f"written: '{page}'\n"
         text = page.read_text(encoding="utf-8")
-        return json.loads(re.search(r'id="poekin-scene">(.*?)</script>', text)[1])
+        (data,) = re.findall(r'id="poekin-scene">(.*?)</script>', text)
+        return json.loads(data)
 
     return call
 

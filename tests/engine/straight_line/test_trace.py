@@ -92,7 +92,8 @@ def test_a_constant_that_is_added_and_taken_away_leaves_no_trace():
 def test_a_sum_of_coordinates_takes_what_each_counts():
     graph, x, y, _ = traced()
     assert graph.linear([], 0.25) == 0.25
-    assert graph.linear([(0, 1.0)], 0.0).number == x.number
+    one: Any = graph.linear([(0, 1.0)], 0.0)
+    assert one.number == x.number
     total: Any = graph.linear([(0, -1.0), (1, 2.0)], 0.5)
     wanted = 0.5 - x + 2.0 * y
     assert (total.number, total.sign) == (wanted.number, wanted.sign)

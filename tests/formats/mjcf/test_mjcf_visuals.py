@@ -60,6 +60,8 @@ def test_shapes_and_vertices_stand_where_mujoco_puts_them():
         mesh = model.geom_dataid[number]
         first = model.mesh_vertadr[mesh]
         theirs = model.mesh_vert[first : first + model.mesh_vertnum[mesh]] @ R.T + p
+        assert shape.triangles is not None
+        assert shape.T_mesh is not None
         vertices, _ = shape.triangles
         vertices = vertices @ shape.T_mesh[:3, :3].T + shape.T_mesh[:3, 3]
         ours = vertices * shape.size @ T[:3, :3].T + T[:3, 3]

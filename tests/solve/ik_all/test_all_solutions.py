@@ -92,8 +92,9 @@ def test_results_of_one_target_and_of_many_are_read_alike():
                         np.array([1, 2]), nothing, nothing, nothing, nothing, nothing)  # fmt: skip
     assert repr(many) == "<AllSolutions of 2 targets by search: 3 in all>"
     assert (many.of(1) == 1).all()
+    zero = np.array(0.0)
     one = AllSolutions(
-        np.ones((2, 6)), [], "2 solutions", "closed form", np.array(2), *(np.array(0.0),) * 5
+        np.ones((2, 6)), [], "2 solutions", "closed form", np.array(2), zero, zero, zero, zero, zero
     )
     assert repr(one) == "<AllSolutions by closed form: 2 solutions>"
     assert one.of().shape == (2, 6)

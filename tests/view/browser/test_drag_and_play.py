@@ -10,12 +10,14 @@ import pytest
 import poekin as pk
 from poekin.formats import emit
 from poekin.groups import se3
+from poekin.view.nodes import Hung, Label
 from poekin.view.page import page
 from poekin.view.scene import Scene, SceneArm, SceneTip, Slider
 from tests.view import sliding_arm
 
 pytest.importorskip("k3d", reason="no k3d: no page was opened")
 REACHED = 1e-6  # m and rad
+EVIL = "</script><img src=x onerror=\"document.title='cut'\">"
 Q = [0.3, -1.2, 1.6, -1.4, -1.5, 0.2]
 # Of the tool's origin: place on the screen (px), and the way from the camera along its view (m).
 ON_SCREEN = """() => {
@@ -62,9 +64,20 @@ def arm(open_page: Any) -> Any:
 
 @pytest.fixture(scope="module")
 def path(open_page: Any) -> Any:
+    """A page with a path, a second arm, raised by 10 mm and turned, and names that end its script."""
+    base = np.eye(4)
+    base[2, 3] = 0.01
     # the slide of the second arm is the factor k
-    second = sliding_arm.arm("second", factors=np.diag([1.0, 1, 0]), shift=np.array([0.01, 0, 1]))
-    return open_page(page(sliding_arm.scene(arms=(sliding_arm.arm(), second), exaggerated=200.0)))
+    shift = np.array([0.01, 0.1, 1])
+    second = sliding_arm.arm("second", base=base, factors=np.diag([1.0, 1, 0]), shift=shift)
+    nodes = (
+        *sliding_arm.nodes(EVIL),
+        Label(Hung("labels", "first"), np.zeros(3), EVIL),
+        sliding_arm.box(Hung("meshes", "second", 3, arm=1), [0.2, 0, 0], [0.4, 0.1, 0.1]),
+    )
+    arms = (sliding_arm.arm(EVIL), second)
+    scene = sliding_arm.scene(EVIL, words=(EVIL,), arms=arms, nodes=nodes, exaggerated=200.0)
+    return open_page(page(scene))
 
 
 def pose(opened: Any) -> np.ndarray:
@@ -101,7 +114,8 @@ def test_the_tool_follows_the_mouse_in_the_plane_of_the_screen(arm, free):
     assert now[2] == pytest.approx(deep, abs=2 * REACHED)
     turned = np.abs(pose(arm)[:3, :3] - before[:3, :3]).max()
     assert (turned > 1e-3) if free else (turned <= 2 * REACHED)
-    assert arm.ask(CAMERA) == camera
+    # k3d may compute it anew from its own parts
+    np.testing.assert_allclose(arm.ask(CAMERA), camera, atol=1e-12)
     assert arm.ask("poekin.target") is None
 
 
@@ -111,7 +125,7 @@ def test_a_press_beside_the_handle_turns_the_camera_and_leaves_the_arm(arm):
     x, y, _ = arm.ask(ON_SCREEN)
     pull(arm, (x + 60, y + 60), (40, 30))
     assert arm.ask("[...poekin.q]") == Q
-    assert arm.ask(CAMERA) != camera
+    assert np.abs(np.subtract(arm.ask(CAMERA), camera)).max() > 1e-3
 
 
 def test_a_finger_takes_the_tool_from_farther_off(arm):
@@ -154,7 +168,7 @@ def test_a_path_plays_stops_and_is_scrubbed(path):
 
     path.ask("() => { poekin.player.seek(0); document.activeElement.blur(); }")
     path.tab.keyboard.press("Space")
-    path.tab.wait_for_function("poekin.player.time > 0.5")
+    path.tab.wait_for_function("poekin.player.time > 0.1")
     assert path.ask("poekin.player.playing")
     path.tab.keyboard.press("Space")
     t, q = path.ask("[poekin.player.time, [...poekin.q]]")
@@ -197,12 +211,33 @@ def test_the_factor_moves_the_second_arm_and_is_on_the_screen(path):
     }"""
     for k in (1, 20, 200):
         second = np.reshape(path.ask(script, k), (4, 4))
-        assert np.arctan2(second[1, 0], second[0, 0]) == pytest.approx(0.71, abs=1e-12)
-        assert second[2, 3] == pytest.approx(0.3 - k, rel=1e-12)
+        assert np.arctan2(second[1, 0], second[0, 0]) == pytest.approx(0.81, abs=1e-12)
+        assert second[2, 3] == pytest.approx(0.31 - k, rel=1e-12)
         shown = path.boxes(".badge")
         assert len(shown) == (k > 1)
         if k > 1:
             assert path.ask("document.querySelector('.badge').textContent") == f"differences × {k}"
+
+
+def test_a_second_arm_is_drawn_where_the_sliders_and_the_factor_put_it(path):
+    objects = path.ask("poekin.scene.objects")
+    number = next(o["id"] for o in objects if o["arm"] == 1)
+    drawn = "(id) => [...poekin.K.getObjectById(id).matrixWorld.elements]"
+    a, b, d = sliding_arm.Q
+    for k in (2.0, 3.0):
+        second = sliding_arm.poses([a + 0.01, b + 0.1, k])[3]
+        second[2, 3] += 0.01
+        path.ask("([k, q]) => { poekin.k = k; poekin.set(q); }", [k, [a, b, d]])
+        path.settle()
+        # a few sums and products of lengths of up to 3 m
+        off = np.reshape(path.ask(drawn, number), (4, 4)).T - second
+        assert np.abs(off).max() <= 200 * 2.0**-53
+
+
+def test_names_out_of_files_are_words_in_the_page(path):
+    assert path.ask("document.title") == EVIL
+    assert path.ask('document.querySelector("h1").textContent') == EVIL
+    assert path.ask('document.querySelectorAll("img").length') == 0
 
 
 def test_a_choice_is_let_go_of_once_the_arm_leaves_it(path):

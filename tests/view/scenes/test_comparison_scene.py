@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.view.nodes import Label
+from poekin.view.nodes import Label, Triangles
 from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.arm_parts.skeleton import glyph_radii, skeleton_nodes
 from poekin.view.scenes.comparison import comparison_scene
 from poekin.view.scenes.two_arms.exaggerated import exaggerated
 from poekin.view.scenes.two_arms.overlay import second_nodes
+from tests.view.narrowed import all_of
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 
@@ -56,6 +57,7 @@ def test_the_second_arm_stands_where_compare_aligned_it():
     found = pk.compare(ARM, b)
     scene = comparison_scene(found)
     first, second = scene.arms
+    assert found.tool is not None
     assert scene.exaggerated > 1
     q = ARM.random(4)
     own = second.factors @ q + second.shift
@@ -74,6 +76,7 @@ def test_reversed_joints_and_other_zeros_stand_on_the_first_arm():
     found = pk.compare(ARM, ARM.replace(screws=screws).rezeroed([0, 0.3, 0, 0, 0, 0, 0]))
     scene = comparison_scene(found)
     second = scene.arms[1]
+    assert found.tool is not None
     assert (scene.exaggerated, second.factors[2, 2]) == (1.0, -1.0)
     q = ARM.random(5)
     found_at = second.base @ found.b.fk(second.factors @ q + second.shift) @ found.tool
@@ -124,6 +127,7 @@ def test_links_of_the_second_arm_are_where_model_b_has_them():
     true = [n for n in skeleton_nodes(b, radii, 1.0) if n.hung.role == "first"]
     nodes = [n for n in second_nodes(made, b, {}, (), 1.0) if n.hung.layer == "skeleton"]
     assert len(true) == 6
-    for one, other in zip(true, nodes, strict=False):
+    pairs = zip(all_of(Triangles, true), all_of(Triangles, nodes), strict=False)
+    for one, other in pairs:
         np.testing.assert_array_equal(one.vertices, other.vertices)
         np.testing.assert_allclose(drawn[other.hung.link], plain[one.hung.link], atol=1e-12)

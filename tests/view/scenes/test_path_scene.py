@@ -12,6 +12,7 @@ from poekin.errors import InputError
 from poekin.solve.path.joint_path import joint_path
 from poekin.view.nodes import Label, Polyline, Triangles
 from poekin.view.scenes.path import FRAMES, ROWS, SECONDS, path_scene
+from tests.view.narrowed import motion_of
 
 ROBOT = pk.load("panda")
 ARM = ROBOT.chain(tip="panda_hand")
@@ -29,8 +30,8 @@ def test_the_way_is_that_of_the_tip_and_the_page_plays_the_joints():
     scene = path_scene(path)
     (way,) = [n for n in scene.nodes if isinstance(n, Polyline) and n.hung.role == "path"]
     np.testing.assert_allclose(way.points, ARM.fk(Q)[:, :3, 3], atol=1e-15)
-    np.testing.assert_array_equal(scene.motion.q, Q)
-    np.testing.assert_array_equal(scene.motion.times, 0.1 * np.arange(50.0))
+    np.testing.assert_array_equal(motion_of(scene).q, Q)
+    np.testing.assert_array_equal(motion_of(scene).times, 0.1 * np.arange(50.0))
     np.testing.assert_array_equal(scene.q, Q[0])
     arrows = [n for n in scene.nodes if isinstance(n, Triangles) and n.hung.name.startswith("pose")]
     assert len(arrows) == 3 * FRAMES
@@ -44,11 +45,11 @@ def test_in_its_robot_the_way_hangs_on_the_base_and_other_coordinates_rest():
     assert {n.hung.link for n in scene.nodes if n.hung.layer == "path"} == {base}
     assert [s.name for s in scene.arms[0].coordinates] == list(ROBOT.q_names)
     index = [ROBOT.q_names.index(name) for name in ARM.q_names]
-    np.testing.assert_array_equal(scene.motion.q[:, index], Q)
-    rest = np.delete(scene.motion.q, index, axis=1)
+    np.testing.assert_array_equal(motion_of(scene).q[:, index], Q)
+    rest = np.delete(motion_of(scene).q, index, axis=1)
     assert rest.shape[1] == 1
     assert not rest.any()
-    assert (scene.motion.times[0], scene.motion.times[-1]) == (0.0, SECONDS)
+    assert (motion_of(scene).times[0], motion_of(scene).times[-1]) == (0.0, SECONDS)
 
 
 def test_limits_and_singular_stretches_are_marked_where_they_are_with_their_sentences():
@@ -57,10 +58,11 @@ def test_limits_and_singular_stretches_are_marked_where_they_are_with_their_sent
     q[30:33] = 0.0  # the Panda's elbow is stretched there, which its limits exclude
     path = joint_path(ARM, q)
     scene = path_scene(path)
-    kinds = {(m.first, m.last, m.kind, m.text) for m in scene.motion.marks}
+    kinds = {(m.first, m.last, m.kind, m.text) for m in motion_of(scene).marks}
     assert kinds == {tuple(event) for event in path.events}
-    assert {"limit", "singular"} <= {m.kind for m in scene.motion.marks}
+    assert {"limit", "singular"} <= {m.kind for m in motion_of(scene).marks}
     (limit,) = [n for n in marked(scene) if n.hung.name.startswith("poses 10 to 20")]
+    assert isinstance(limit, Polyline)
     np.testing.assert_allclose(limit.points, ARM.fk(q[10:21])[:, :3, 3], atol=1e-15)
 
 
@@ -68,11 +70,12 @@ def test_a_change_of_branch_is_a_ball_and_a_label_where_the_tip_is():
     path = replace(joint_path(ARM, Q), branch_switches=(7,))
     scene = path_scene(path)
     ball, label = marked(scene)
+    assert isinstance(ball, Triangles)
     assert isinstance(label, Label)
     assert label.text == "branch changes before pose 7"
     place = ARM.fk(Q[7])[:3, 3]
     np.testing.assert_allclose(ball.vertices.mean(axis=0), place, atol=0.002)
-    assert [m.kind for m in scene.motion.marks] == ["switch"]
+    assert [m.kind for m in motion_of(scene).marks] == ["switch"]
 
 
 def test_a_long_path_is_thinned_and_its_marks_stay_where_they_were():
@@ -80,7 +83,7 @@ def test_a_long_path_is_thinned_and_its_marks_stay_where_they_were():
     q = START + np.linspace(0, 0.4, count)[:, None] * np.ones(7)
     q[6000:6100, 0] = HIGH[0]
     path = replace(joint_path(ARM, q), branch_switches=(4321,))
-    motion = path_scene(path).motion
+    motion = motion_of(path_scene(path))
     assert len(motion.q) <= ROWS + 2
     np.testing.assert_array_equal(motion.q[[0, -1]], q[[0, -1]])
     marks = {m.kind: m for m in motion.marks}
@@ -96,11 +99,11 @@ def test_poses_of_nan_are_passed_over():
     T[5] = np.nan
     path = pk.follow(ARM, T, q0=Q[0])
     scene = path_scene(path)
-    assert len(scene.motion.q) == 19
-    assert np.isfinite(scene.motion.q).all()
-    assert np.isfinite(scene.motion.times).all()
-    assert [m.kind for m in scene.motion.marks] == ["missed"]
-    assert scene.motion.times[5] == 6 * SECONDS / 19
+    assert len(motion_of(scene).q) == 19
+    assert np.isfinite(motion_of(scene).q).all()
+    assert np.isfinite(motion_of(scene).times).all()
+    assert [m.kind for m in motion_of(scene).marks] == ["missed"]
+    assert motion_of(scene).times[5] == 6 * SECONDS / 19
     with pytest.raises(InputError, match="at least one finite pose"):
         path_scene(pk.follow(ARM, T[5:6]))
 

@@ -11,6 +11,7 @@ from poekin.view.nodes import Label, Triangles
 from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.solutions import solutions_scene
 from poekin.view.scenes.targets import MOST, solution_scene
+from tests.view.narrowed import all_of
 
 ROBOT = pk.load("ur5")
 ARM = ROBOT.chain()
@@ -37,7 +38,8 @@ def test_a_ghost_stands_where_its_solution_has_the_links():
     arm = chain_geometry(ARM)
     bones = [n for n in scene.nodes if n.hung.layer == "skeleton" and isinstance(n, Triangles)]
     for k in (0, 5):
-        ghosts = [n for n in scene.nodes if n.hung.layer == "solutions" and n.hung.choice == k]
+        own = [n for n in scene.nodes if n.hung.layer == "solutions" and n.hung.choice == k]
+        ghosts = all_of(Triangles, own)
         assert len(ghosts) == len(bones)
         poses = arm.poses(EVERY.solutions[k])
         for ghost, bone in zip(ghosts, bones, strict=True):

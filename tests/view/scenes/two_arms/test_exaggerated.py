@@ -62,6 +62,8 @@ def test_at_one_it_is_b_and_at_zero_a_at_all_joint_values(joint, sizes, seed):
         np.testing.assert_array_equal(made.chain.fk(y), found.b.fk(y))
         return
     np.testing.assert_allclose(made.chain.fk([*y, 1.0]), found.b.fk(y), atol=TIGHT)
+    assert found.base is not None
+    assert found.tool is not None
     if all(not j.axis_differs or j.number == joint + 1 for j in found.joints):
         a_again = found.base @ made.chain.fk([*y, 0.0]) @ found.tool
         # what is within the tolerance of 1e-5 m is left as it is
