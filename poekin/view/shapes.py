@@ -25,6 +25,11 @@ AROUND = 8
 """Sides of a tube."""
 
 
+def transformed(points: Array, T: Array) -> Array:
+    """Points (..., 3) moved by a pose (4, 4)."""
+    return points @ T[:3, :3].T + T[:3, 3]
+
+
 class Surface(NamedTuple):
     """Triangles: vertices (n, 3), m, and faces (k, 3), numbers of vertices, counter-clockwise seen
     from outside.
@@ -42,11 +47,11 @@ class Surface(NamedTuple):
         return Surface(self.vertices @ turned_least(z).T + point, self.faces)
 
 
-def merged(*surfaces: Surface) -> Surface:
-    """One surface of several that are closed each for itself."""
-    starts = np.cumsum([0, *(len(surface.vertices) for surface in surfaces[:-1])])
-    faces = [surface.faces + start for surface, start in zip(surfaces, starts, strict=True)]
-    return Surface(np.concatenate([s.vertices for s in surfaces]), np.concatenate(faces))
+def merged(*parts: tuple[Array, np.ndarray]) -> Surface:
+    """One surface of several; of lines likewise, whose pieces are pairs (k, 2) of vertices."""
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in parts[:-1])])
+    faces = [faces + start for (_, faces), start in zip(parts, starts, strict=True)]
+    return Surface(np.concatenate([vertices for vertices, _ in parts]), np.concatenate(faces))
 
 
 def creased(surface: Surface) -> Surface:
@@ -166,17 +171,15 @@ def capsule(start: ArrayLike, end: ArrayLike, radius: float, sides: int = SIDES)
     start = np.asarray(start, float)
     way = np.asarray(end, float) - start
     length = float(np.linalg.norm(way))
-    turn = np.linspace(0, np.pi, 2 * (sides // 4) + 1)
+    if length <= 1e-6 * radius:
+        ball = sphere(radius, sides)
+        return Surface(ball.vertices + start, ball.faces)
+    quarter = np.linspace(0, 0.5 * np.pi, sides // 4 + 1)
+    turn = np.concatenate([quarter, 0.5 * np.pi + quarter])  # the equator twice, at both ends
     radii = radius * np.sin(turn)
     radii[[0, -1]] = 0.0
-    heights = -radius * np.cos(turn)
-    z = np.array([0.0, 0.0, 1.0])
-    if length > 1e-6 * radius:  # below that, a sphere is as good
-        z = way / length
-        middle = len(turn) // 2  # the equator, twice: at the start and at the end
-        radii = np.insert(radii, middle, radius)
-        heights = np.concatenate([heights[: middle + 1], heights[middle:] + length])
-    return revolved(radii, heights, sides).placed(start, z)
+    heights = -radius * np.cos(turn) + np.repeat([0.0, length], len(quarter))
+    return revolved(radii, heights, sides).placed(start, way / length)
 
 
 def box(sizes: ArrayLike) -> Surface:

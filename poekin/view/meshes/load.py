@@ -20,6 +20,7 @@ import numpy as np
 
 from ...errors import FileError, MissingExtra, PoekinError, escape_unprintable
 from ...formats.text import xml
+from .. import shapes
 from . import refuse
 
 ENDINGS = {".stl": "stl", ".obj": "obj", ".dae": "dae", ".glb": "glb", ".ply": "ply"}
@@ -101,7 +102,7 @@ def _piece(scene: Any, name: str) -> list[tuple[np.ndarray, np.ndarray, int | No
     faces = np.asarray(getattr(geometry, "faces", ()), dtype=np.int64)
     if not len(faces):
         return []
-    vertices = np.asarray(geometry.vertices, dtype=float) @ T[:3, :3].T + T[:3, 3]
+    vertices = shapes.transformed(np.asarray(geometry.vertices, dtype=float), T)
     unit = str(geometry.metadata.get("units") or "meters").partition(" * ")
     if unit[2]:
         vertices *= float(unit[0])
@@ -131,18 +132,11 @@ def _color(visual: Any) -> int | None:
 
 def merged(pieces: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
     """Vertices, each once, and faces of several pieces, without faces of no area."""
-    vertices, faces = joined(pieces)
+    vertices, faces = shapes.merged(*pieces)
     vertices = vertices.astype(np.float32) + np.float32(0)  # -0 is 0
     keys = vertices.view(np.dtype((np.void, vertices.dtype.itemsize * 3))).ravel()
     _, first, place = np.unique(keys, return_index=True, return_inverse=True)
     return vertices[first], proper(place.ravel()[faces])
-
-
-def joined(pieces: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and faces of several pieces as those of one."""
-    shifts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces[:-1])])
-    shifted = [faces + shift for (_, faces), shift in zip(pieces, shifts, strict=True)]
-    return np.concatenate([vertices for vertices, _ in pieces]), np.concatenate(shifted)
 
 
 def proper(faces: np.ndarray) -> np.ndarray:

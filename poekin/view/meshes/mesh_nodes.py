@@ -14,7 +14,7 @@ from .. import shapes
 from ..nodes import Hung, Role, Triangles
 from .find import MeshFinder
 from .kept import parts_of
-from .load import FARTHEST, MeshPart, joined, merged
+from .load import FARTHEST, MeshPart, merged
 from .reduce import limit_for, reduced
 
 BUDGET = 400_000
@@ -78,7 +78,7 @@ def mesh_nodes(robot: Robot, arm: int = 0) -> tuple[tuple[Triangles, ...], tuple
     for (link, color, opacity), group in pieces.items():
         number = robot.links.index(link)
         hung = Hung("meshes", ROLES[arm], number, arm, link, color=color, opacity=opacity)
-        nodes.append(Triangles(hung, *joined(group)))
+        nodes.append(Triangles(hung, *shapes.merged(*group)))
     if moved:
         words = f"{sum(counts)} triangles are drawn as {sum(len(node.faces) for node in nodes)}"
         why = f"no vertex is more than {moved * 1e3:.2g} mm off"
@@ -141,12 +141,11 @@ def _placed(
     points = np.asarray(vertices, dtype=float)
     if visual.shape == "mesh":
         if visual.T_mesh is not None:
-            points = points @ visual.T_mesh[:3, :3].T + visual.T_mesh[:3, 3]
+            points = shapes.transformed(points, visual.T_mesh)
         points = points * visual.size
         if np.prod(visual.size) < 0:
             faces = faces[:, ::-1]
-    T = visual.T_link_visual
-    return points @ T[:3, :3].T + T[:3, 3], faces
+    return shapes.transformed(points, visual.T_link_visual), faces
 
 
 def _largest(visual: Visual) -> float:

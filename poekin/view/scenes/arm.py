@@ -21,6 +21,7 @@ from ..kinematics import kinematics, page_tips
 from ..meshes.mesh_nodes import mesh_nodes
 from ..nodes import Layer, Node, Triangles
 from ..scene import Scene, SceneArm, SceneTip
+from ..shapes import transformed
 from .arm_parts.axes import axis_nodes, frame_nodes, label_nodes, screw_table
 from .arm_parts.geometry import ArmGeometry, opening_q
 from .arm_parts.jacobian import jacobian_nodes, singular_words
@@ -130,15 +131,11 @@ def arm_size(arm: ArmGeometry, q: Array, bodies: Iterable[Triangles] = ()) -> fl
     T = arm.poses(q)
     points = [arm.points(q)]
     for body in bodies:
-        corners = np.stack(np.meshgrid(*_bounds(body.vertices)), axis=-1).reshape(-1, 3)
-        points.append(corners @ T[body.hung.link, :3, :3].T + T[body.hung.link, :3, 3])
+        bounds = np.stack([body.vertices.min(axis=0), body.vertices.max(axis=0)], axis=-1)
+        corners = np.stack(np.meshgrid(*bounds), axis=-1).reshape(-1, 3)
+        points.append(transformed(corners, T[body.hung.link]))
     diagonal = float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
     return diagonal if diagonal > POINT else 1.0
-
-
-def _bounds(points: Array) -> Array:
-    """Least and greatest coordinates (3, 2) of points."""
-    return np.stack([points.min(axis=0), points.max(axis=0)], axis=-1)
 
 
 def arm_nodes(arm: ArmGeometry, q: Array, size: float, covered: bool = False) -> list[Node]:

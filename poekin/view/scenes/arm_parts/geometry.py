@@ -16,6 +16,7 @@ from ....groups.arrays import Array
 from ....model.chain_data import ScrewKind
 from ....model.coordinates import coordinates
 from ...scene import Slider
+from ...shapes import transformed
 
 FrameKind = Literal["end", "tip", "link"]
 
@@ -123,7 +124,7 @@ class ArmGeometry:
         T = self.poses(q)
         held = [(bone.link, point) for bone in self.bones for point in (bone.start, bone.end)]
         held += [(frame.link, frame.pose[:3, 3]) for frame in self.frames]
-        return np.array([T[link, :3, :3] @ point + T[link, :3, 3] for link, point in held])
+        return np.array([transformed(point, T[link]) for link, point in held])
 
 
 def opening_q(sliders: tuple[Slider, ...], q: Any = None) -> Array:

@@ -10,8 +10,9 @@ import numpy as np
 from ....groups import se3
 from ....groups.arrays import Array
 from ...kinematics import page_tips
-from ...nodes import Hung, Label, Layer, Node, Polyline, Role, Triangles
+from ...nodes import Hung, Label, Layer, Node, Role
 from ...scene import SceneArm
+from ...shapes import transformed
 from ..arm import scene_arm
 from ..arm_parts.axes import axis_nodes, frame_nodes
 from ..arm_parts.geometry import ArmGeometry
@@ -78,22 +79,16 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
     back = se3.exp(-second.moves)
     joints = []
     for k, joint in enumerate(geometry.joints):
-        R = back[k, :3, :3]
         moved = replace(
             joint,
             parent=second.axes[k],
             child=bodies[k + 1],
-            point=R @ joint.point + back[k, :3, 3],
-            direction=R @ joint.direction,
+            point=transformed(joint.point, back[k]),
+            direction=back[k, :3, :3] @ joint.direction,
         )
         joints.append(moved)
-    last = len(geometry.joints)
-    frames = [
-        replace(
-            frame, link=bodies[-1 if frame.link == last and frame.kind == "end" else frame.link]
-        )
-        for frame in geometry.frames
-    ]
+    frames = [replace(frame, link=bodies[frame.link]) for frame in geometry.frames]
+    frames[-1] = replace(frames[-1], link=bodies[-1], pose=back[-1] @ frames[-1].pose)
     names = [""] * (bodies[-1] + 1)
     for k, name in enumerate(geometry.links):
         names[bodies[k]] = name
@@ -119,11 +114,3 @@ def _of_second(node: Node, differing: dict[str, str]) -> Node:
 def _hung(node: Node, layer: Layer, role: Role, name: str, opacity: float = 1.0) -> Node:
     hung = replace(node.hung, arm=1, layer=layer, role=role, name=name, opacity=opacity)
     return replace(node, hung=hung)
-
-
-def moved_node(node: Triangles | Polyline, pose: Array, hung: Hung) -> Triangles | Polyline:
-    """A node with its points moved by a pose, hung elsewhere."""
-    R = pose[:3, :3]
-    if isinstance(node, Triangles):
-        return Triangles(hung, node.vertices @ R.T + pose[:3, 3], node.faces)
-    return Polyline(hung, node.points @ R.T + pose[:3, 3], node.width)
