@@ -125,6 +125,13 @@ def _tips(tips: Iterable[SceneTip]) -> str:
     return "\n".join(["export const tips = [", *lines, "];", ""])
 
 
+def tip_chain(model: Model, name: str) -> Chain:
+    """Chain from the root to a link, floating and planar joints at their zero pose; a chain itself."""
+    if isinstance(model, Chain):
+        return model
+    return fix_free_joints(model).chain(tip=name)
+
+
 def fix_free_joints(robot: Robot) -> Robot:
     """The robot with its floating and planar joints fixed at their zero pose, so that chains cross
     them.

@@ -13,6 +13,7 @@ import os
 import re
 import struct
 from collections import Counter
+from collections.abc import Iterable
 from importlib import import_module
 from typing import Any, NamedTuple
 
@@ -121,13 +122,16 @@ def _color(visual: Any) -> int | None:
         material = visual.material
         if material is None:
             return None
-        rgba = material.main_color
-    elif visual.kind == "face":
-        rgba = Counter(map(tuple, visual.face_colors.tolist())).most_common(1)[0][0]
-    else:
-        rgba = Counter(map(tuple, visual.vertex_colors.tolist())).most_common(1)[0][0]
-    r, g, b = (int(value) for value in rgba[:3])
-    return r << 16 | g << 8 | b
+        return rgb(material.main_color)
+    colors = visual.face_colors if visual.kind == "face" else visual.vertex_colors
+    ((commonest, _),) = Counter(map(tuple, colors.tolist())).most_common(1)
+    return rgb(commonest)
+
+
+def rgb(color: Iterable[float]) -> int:
+    """Colour 0xRRGGBB of red, green and blue from 0 to 255, whatever is behind them."""
+    red, green, blue, *_ = map(round, color)
+    return red << 16 | green << 8 | blue
 
 
 def merged(pieces: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:

@@ -14,7 +14,7 @@ from .. import shapes
 from ..nodes import Hung, Role, Triangles
 from .find import MeshFinder
 from .kept import parts_of
-from .load import FARTHEST, MeshPart, merged
+from .load import FARTHEST, MeshPart, merged, rgb
 from .reduce import limit_for, reduced
 
 BUDGET = 400_000
@@ -71,7 +71,7 @@ def mesh_nodes(robot: Robot, arm: int = 0) -> tuple[tuple[Triangles, ...], tuple
         for part in parts if opacity else ():
             vertices, faces, diagonal = reader.reduced(part, limit)
             moved = max(moved, diagonal * _largest(visual))
-            color = part.color if visual.color is None else _rgb(visual.color[:3])
+            color = part.color if visual.color is None else rgb(255 * c for c in visual.color)
             group = pieces.setdefault((visual.link, color, opacity), [])
             group.append(_placed(visual, vertices, faces))
     nodes = []
@@ -159,8 +159,3 @@ def _farthest(visual: Visual, parts: tuple[MeshPart, ...]) -> float:
     if visual.T_mesh is not None:
         farthest += float(np.abs(visual.T_mesh[:3, 3]).max())
     return farthest * _largest(visual) + float(np.abs(visual.T_link_visual[:3, 3]).max())
-
-
-def _rgb(color: tuple[float, ...]) -> int:
-    r, g, b = (round(255 * value) for value in color)
-    return r << 16 | g << 8 | b

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,21 +16,19 @@ from ...model.joint import FREE
 from ...model.kinematics.arm import chain_of
 from ...model.kinematics.compiled import CompiledChain
 from ...model.robot import Robot
-from ..kinematics import kinematics, page_tips
+from ..kinematics import Model, kinematics, page_tips, tip_chain
 from ..meshes.mesh_nodes import mesh_nodes
 from ..nodes import Layer, Node, Triangles
 from ..scene import Scene, SceneArm, SceneTip
 from ..shapes import transformed
 from .arm_parts.axes import axis_nodes, frame_nodes, label_nodes, screw_table
-from .arm_parts.geometry import ArmGeometry, opening_q
+from .arm_parts.geometry import ArmGeometry, opening_q, widened
 from .arm_parts.jacobian import jacobian_nodes, singular_words
 from .arm_parts.missing import left_out_words, stand_ins
 from .arm_parts.of_chain import chain_geometry
-from .arm_parts.of_robot import chain_to, robot_geometry
+from .arm_parts.of_robot import robot_geometry
 from .arm_parts.reach import reach_cloud
 from .arm_parts.skeleton import glyph_radii, skeleton_nodes
-
-Model = Robot | Chain
 
 POINT = 1e-6
 """Size up to which an arm is a point, m."""
@@ -97,15 +94,15 @@ def arm_scene(
     nodes = [*bodies, *arm_nodes(arm, opening, size, bool(bodies))]
     if bodies:
         nodes += stand_ins(arm, left_out, bodies, size)
-    moved = [chain for chain in _chains(model, tips[:1]) if chain.dof]
-    if moved:
-        nodes += jacobian_nodes(max(len(tip.coordinates) for tip in tips), size)
-    if cloud:
-        nodes += [reach_cloud(chain, arm.links.index(chain.base), cloud, size) for chain in moved]
+    columns = max(len(tip.coordinates) for tip in tips)
+    if columns:
+        nodes += jacobian_nodes(columns, size)
     words = [*_model_words(model, arm), *_beyond(arm, opening), *left_out_words(left_out)]
-    values = {slider.name: x for slider, x in zip(arm.sliders, opening, strict=True)}
-    for chain in moved:
-        words += singular_words(chain, np.array([values[name] for name in chain.q_names]))
+    chain = tip_chain(model, tips[0].name)
+    if chain.dof:
+        words += singular_words(chain, opening[list(tips[0].coordinates)])
+    if cloud and chain.dof:
+        nodes.append(reach_cloud(chain, cloud, size))
     shown: set[Layer] = {"axes", "frames", "meshes" if bodies else "skeleton"}
     return Scene(
         title=arm.name,
@@ -163,10 +160,7 @@ def scene_arm(
         name=arm.name,
         program=kinematics(model, tips),
         links=arm.links,
-        coordinates=tuple(
-            replace(slider, lower=min(slider.lower, x), upper=max(slider.upper, x))
-            for slider, x in zip(arm.sliders, q.tolist(), strict=True)
-        ),
+        coordinates=widened(arm.sliders, q[None]),
         tips=tips,
         base=np.eye(4),
         factors=np.eye(m),
@@ -181,12 +175,6 @@ def _asked(model: Model, tip: str | None) -> tuple[str, ...]:
     if isinstance(model, Chain):
         raise InputError(f"tip: a chain has its own, {quote(model.tip)}; got {quote(tip)}")
     return (tip,)
-
-
-def _chains(model: Model, tips: Iterable[SceneTip]) -> list[Chain]:
-    if isinstance(model, Chain):
-        return [model]
-    return [chain_to(model, tip.name) for tip in tips]
 
 
 def _model_words(model: Model, arm: ArmGeometry) -> list[str]:

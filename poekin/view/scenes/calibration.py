@@ -17,6 +17,7 @@ from ..scene import PageTable, Scene
 from ..shapes import arrow, merged
 from .arm import arm_scene
 from .arm_parts.of_chain import chain_geometry
+from .stage import evenly
 from .two_arms.exaggerated import STEPS, exaggerated, visible_factor
 from .two_arms.overlay import second_arm, second_nodes
 
@@ -80,7 +81,7 @@ def correction_table(found: Calibration) -> PageTable:
 
 def _residuals(vectors: ResidualVectors, k: float, size: float) -> Iterator[Node]:
     """Measured points, and arrows from them to where the two arms have them, k times as long."""
-    chosen = np.unique(np.linspace(0, len(vectors.places) - 1, MOST).round().astype(int))
+    chosen = evenly(len(vectors.places), MOST)
     measured = (vectors.places - vectors.after)[chosen]
     lengths = np.linalg.norm(vectors.before[chosen], axis=1)
     yield Cloud(Hung("cloud", "second", 0, name="measured points"), measured, 0.006 * size, lengths)

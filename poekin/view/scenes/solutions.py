@@ -53,6 +53,7 @@ def solutions_scene(found: AllSolutions, robot: Robot | None = None) -> Scene:
         raise InputError(f"view: a finite target expected, got {found.summary()}")
     q = found.solutions[:MOST]
     stage = make_stage(chain, q[0] if len(q) else None, robot)
+    rows = stage.configurations(q)
     words = [found.summary()]
     if len(q) < len(found.solutions):
         words.append(f"The first {MOST} of {len(found.solutions)} solutions are shown.")
@@ -62,9 +63,9 @@ def solutions_scene(found: AllSolutions, robot: Robot | None = None) -> Scene:
         [*_ghosts(chain, q, stage), *target_nodes(stage, target)],
         "path",
         "solutions",
+        rows=rows,
     )
-    rows = enumerate(stage.configurations(q))
-    choices = tuple(SceneChoice(row, _words(found, chain, k)) for k, row in rows)
+    choices = tuple(SceneChoice(row, _words(found, chain, k)) for k, row in enumerate(rows))
     return replace(scene, choices=choices)
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -149,3 +149,13 @@ def _opening(lower: float, upper: float) -> float:
     if math.isfinite(lower) and math.isfinite(upper):
         return 0.5 * (lower + upper)
     return lower if math.isfinite(lower) else upper
+
+
+def widened(sliders: tuple[Slider, ...], q: Array) -> tuple[Slider, ...]:
+    """Sliders that reach all configurations (N, m)."""
+    low = q.min(axis=0, initial=math.inf)
+    high = q.max(axis=0, initial=-math.inf)
+    return tuple(
+        replace(slider, lower=min(slider.lower, least), upper=max(slider.upper, most))
+        for slider, least, most in zip(sliders, low.tolist(), high.tolist(), strict=True)
+    )

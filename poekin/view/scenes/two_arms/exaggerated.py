@@ -167,4 +167,4 @@ def _unit(move: Array) -> tuple[Array, float]:
     """Unit screw and size of a motion, 0 where it is rounding."""
     turn = move[:3] * (np.linalg.norm(move[:3]) > NOISE)
     screw, size = se3.axis_angle(np.r_[turn, move[3:]])
-    return screw, float(size) * (size > NOISE)
+    return screw, float(size * (size > NOISE))
