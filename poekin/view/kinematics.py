@@ -153,13 +153,6 @@ def _body_program(chain: Chain) -> Program:
     S[:, 2, 0] = chain.local.rotates
     S[:, 5, 0] = chain.local.slides
     A = se3.adjoint(chain.joint_poses(np.zeros(chain.dof))) @ S
-    C = [[(k, factor) for k, factor in enumerate(row) if factor] for row in chain.coupling.tolist()]
-    tree = TracedTree(
-        range(n),
-        [IDENTITY] * n,
-        A[..., 0].tolist(),
-        list(map(tuple, C)),
-        [0.0] * n,
-        chain.dof,
-    )
+    C = chain.coupling.tolist()
+    tree = TracedTree(range(n), [IDENTITY] * n, A[..., 0].tolist(), C, [0.0] * n)
     return tree_program(tree, range(n + 1))

@@ -130,21 +130,21 @@ def _between_rings(rings: int, sides: int) -> np.ndarray:
     return np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3), *caps])
 
 
-def tube(points: ArrayLike, radius: float, sides: int = AROUND) -> Surface:
+def tube(points: ArrayLike, radius: float) -> Surface:
     """Tube of a radius along a curve through points (n, 3) that does not turn back on itself."""
     points = np.asarray(points, float)
     tangents = np.gradient(points, axis=0)
     tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
     across = turned_least(tangents[0])[:, 0]
     rings = []
-    turn = 2 * np.pi / sides * np.arange(sides)[:, None]
+    turn = 2 * np.pi / AROUND * np.arange(AROUND)[:, None]
     for point, tangent in zip(points, tangents, strict=True):
         across = across - tangent * (tangent @ across)  # carried along without twist
         across = across / np.linalg.norm(across)
         circle = np.cos(turn) * across + np.sin(turn) * np.cross(tangent, across)
         rings.append(point + radius * circle)
     vertices = np.concatenate([*rings, points[[0, -1]]])
-    return creased(Surface(vertices, _between_rings(len(points), sides)))
+    return creased(Surface(vertices, _between_rings(len(points), AROUND)))
 
 
 def cylinder(radius: float, length: float, sides: int = SIDES) -> Surface:
@@ -204,18 +204,12 @@ def arrow(
     return revolved([0, shaft, shaft, head, 0], [0, 0, neck, neck, length], sides)
 
 
-def double_arrow(
-    length: float,
-    shaft: float,
-    head: float,
-    head_length: float,
-    sides: int = SIDES,
-) -> Surface:
+def double_arrow(length: float, shaft: float, head: float, head_length: float) -> Surface:
     """Arrow along z with a head at both ends, its middle at the origin: a prismatic joint."""
     half = 0.5 * length
     neck = half - head_length
     heights = [-half, -neck, -neck, neck, neck, half]
-    return revolved([0, head, shaft, shaft, head, 0], heights, sides)
+    return revolved([0, head, shaft, shaft, head, 0], heights)
 
 
 def arc_arrow(radius: float, thickness: float, angle: float = 1.5 * np.pi) -> Surface:
@@ -225,18 +219,19 @@ def arc_arrow(radius: float, thickness: float, angle: float = 1.5 * np.pi) -> Su
     """
     tip = 3.0 * thickness
     neck = angle - 2.0 * tip / radius
-    body = tube(helix_points(radius, neck, 0.0), thickness)
-    there = helix_points(radius, neck, 0.0)[-1]
-    ahead = np.array([-np.sin(0.5 * (neck + angle)), np.cos(0.5 * (neck + angle)), 0.0])
-    return merged(body, cone(tip, 2.0 * tip, AROUND).placed(there, ahead))
+    points = helix_points(radius, neck, 0.0)
+    middle = 0.5 * (neck + angle)
+    ahead = np.array([-np.sin(middle), np.cos(middle), 0.0])
+    head = cone(tip, 2.0 * tip, AROUND).placed(points[-1], ahead)
+    return merged(tube(points, thickness), head)
 
 
-def helix(radius: float, thickness: float, rise: float, turns: float = 3.0) -> Surface:
+def helix(radius: float, thickness: float, rise: float) -> Surface:
     """Tube along a helix about z, its middle at the origin: a helical joint.
 
-    It rises by `rise` metres in all, and is left-handed where that is negative.
+    It rises by `rise` metres in three turns, and is left-handed where that is negative.
     """
-    points = helix_points(radius, 2 * np.pi * turns, rise)
+    points = helix_points(radius, 6 * np.pi, rise)
     return tube(points - [0.0, 0.0, 0.5 * rise], thickness)
 
 

@@ -11,7 +11,7 @@ from ...formats.visuals.of_robot import visuals_of
 from ...formats.visuals.visual import LeftOut, Visual
 from ...model.robot import Robot
 from .. import shapes
-from ..nodes import Hung, Role, Triangles
+from ..nodes import Hung, Triangles
 from .find import MeshFinder
 from .kept import parts_of
 from .load import FARTHEST, MeshPart, merged, rgb
@@ -21,18 +21,15 @@ BUDGET = 400_000
 """Triangles of a robot; a page of them has 5 MB."""
 MOST_BYTES = 512 * 2**20
 """Bytes of all mesh files of a robot together."""
-ROLES: tuple[Role, Role] = ("first", "second")
 
 
-def mesh_nodes(robot: Robot, arm: int = 0) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]]:
+def mesh_nodes(robot: Robot) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]]:
     """Nodes of all that can be drawn of a robot, and what cannot, with the reason.
 
     Parameters
     ----------
     robot : Robot
         Robot that was read from a URDF or MJCF; there is nothing to draw of another one.
-    arm : int
-        Number of the robot in the scene.
 
     Returns
     -------
@@ -77,7 +74,7 @@ def mesh_nodes(robot: Robot, arm: int = 0) -> tuple[tuple[Triangles, ...], tuple
     nodes = []
     for (link, color, opacity), group in pieces.items():
         number = robot.links.index(link)
-        hung = Hung("meshes", ROLES[arm], number, arm, link, color=color, opacity=opacity)
+        hung = Hung("meshes", "first", number, name=link, color=color, opacity=opacity)
         nodes.append(Triangles(hung, *shapes.merged(*group)))
     if moved:
         words = f"{sum(counts)} triangles are drawn as {sum(len(node.faces) for node in nodes)}"

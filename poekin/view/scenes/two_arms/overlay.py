@@ -10,7 +10,7 @@ import numpy as np
 from ....groups import se3
 from ....groups.arrays import Array
 from ...kinematics import page_tips
-from ...nodes import Hung, Label, Layer, Node, Role
+from ...nodes import Hung, Label, Node
 from ...scene import SceneArm
 from ...shapes import transformed
 from ..arm import scene_arm
@@ -67,7 +67,7 @@ def second_nodes(
         only = replace(arm, joints=(joint,))
         for node in axis_nodes(only, radii[k : k + 1], size):
             if not isinstance(node, Label):
-                drawn.append(_hung(node, "differences", "differs", differing[joint.name]))
+                drawn.append(_differing(node, differing[joint.name]))
         hung = Hung("differences", "differs", joint.parent, 1, differing[joint.name])
         drawn.append(Label(hung, joint.point + 2.5 * radii[k] * joint.direction, joint.name))
     return drawn
@@ -103,14 +103,15 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
 
 def _of_second(node: Node, differing: dict[str, str]) -> Node:
     """A node of the first arm as one of the second."""
-    name = node.hung.name
-    if node.hung.layer == "skeleton" and node.hung.role == "joint" and name in differing:
-        return _hung(node, "differences", "differs", differing[name])
-    if node.hung.layer == "skeleton":
-        return _hung(node, "skeleton", "second", name, FADED)
-    return _hung(node, node.hung.layer, node.hung.role, name)
+    hung = node.hung
+    if hung.layer != "skeleton":
+        return replace(node, hung=replace(hung, arm=1))
+    if hung.role == "joint" and hung.name in differing:
+        return _differing(node, differing[hung.name])
+    return replace(node, hung=replace(hung, arm=1, role="second", opacity=FADED))
 
 
-def _hung(node: Node, layer: Layer, role: Role, name: str, opacity: float = 1.0) -> Node:
-    hung = replace(node.hung, arm=1, layer=layer, role=role, name=name, opacity=opacity)
+def _differing(node: Node, words: str) -> Node:
+    """A node in the layer of differences, with the sentence on its joint."""
+    hung = replace(node.hung, arm=1, layer="differences", role="differs", name=words)
     return replace(node, hung=hung)
