@@ -19,10 +19,10 @@ from ...model.robot import Robot
 from ..kinematics import Model, kinematics, page_tips, tip_chain
 from ..meshes.mesh_nodes import mesh_nodes
 from ..nodes import Layer, Node, Triangles
-from ..scene import Scene, SceneArm, SceneTip
+from ..scene import Scene, SceneArm, SceneTip, Slider
 from ..shapes import transformed
 from .arm_parts.axes import axis_nodes, frame_nodes, label_nodes, screw_table
-from .arm_parts.geometry import ArmGeometry, opening_q, widened
+from .arm_parts.geometry import ArmGeometry, beyond, opening_q, widened
 from .arm_parts.jacobian import jacobian_nodes, singular_words
 from .arm_parts.missing import left_out_words, stand_ins
 from .arm_parts.of_chain import chain_geometry
@@ -97,7 +97,12 @@ def arm_scene(
     columns = max(len(tip.coordinates) for tip in tips)
     if columns:
         nodes += jacobian_nodes(columns, size)
-    words = [*_model_words(model, arm), *_beyond(arm, opening), *left_out_words(left_out)]
+    words = _model_words(model, arm)
+    reached = widened(arm.sliders, opening[None])
+    names = beyond(arm.sliders, reached)
+    if names:
+        words.append(f"The page opens beyond the limits of {names}.")
+    words += left_out_words(left_out)
     chain = tip_chain(model, tips[0].name)
     if chain.dof:
         words += singular_words(chain, opening[list(tips[0].coordinates)])
@@ -107,7 +112,7 @@ def arm_scene(
     return Scene(
         title=arm.name,
         words=tuple(words),
-        arms=(scene_arm(model, arm, tips, opening),),
+        arms=(scene_arm(model, arm, tips, reached),),
         q=opening,
         nodes=tuple(nodes),
         shown=frozenset(shown),
@@ -152,15 +157,15 @@ def scene_arm(
     model: Model,
     arm: ArmGeometry,
     tips: tuple[SceneTip, ...],
-    q: Array,
+    sliders: tuple[Slider, ...],
 ) -> SceneArm:
-    """The model as an arm of a page whose sliders are its own coordinates."""
-    m = len(arm.sliders)
+    """The model as an arm of a page with sliders of its own coordinates."""
+    m = len(sliders)
     return SceneArm(
         name=arm.name,
         program=kinematics(model, tips),
         links=arm.links,
-        coordinates=widened(arm.sliders, q[None]),
+        coordinates=sliders,
         tips=tips,
         base=np.eye(4),
         factors=np.eye(m),
@@ -190,15 +195,3 @@ def _model_words(model: Model, arm: ArmGeometry) -> list[str]:
         if free:
             words.append(f"Floating and planar joints are at zero: {join_names(free)}.")
     return words
-
-
-def _beyond(arm: ArmGeometry, q: Array) -> list[str]:
-    """Sentence on the coordinates of q that are beyond their limits."""
-    beyond = [
-        slider.name
-        for slider, x in zip(arm.sliders, q, strict=True)
-        if not slider.lower <= x <= slider.upper
-    ]
-    if not beyond:
-        return []
-    return [f"The page opens beyond the limits of {join_names(beyond)}."]

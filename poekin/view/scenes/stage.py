@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import InputError, join_names, quote
+from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.robot import Robot
 from ..nodes import Hung, Layer, Node, Role
 from ..scene import Scene
 from .arm import arm_scene
-from .arm_parts.geometry import opening_q, widened
+from .arm_parts.geometry import beyond, opening_q, widened
 from .arm_parts.of_robot import robot_geometry
 
 
@@ -74,10 +74,10 @@ class Stage(NamedTuple):
         """
         arm = self.scene.arms[0]
         reached = widened(arm.coordinates, self.scene.q[None] if rows is None else rows)
-        beyond = [one.name for one in reached if one not in arm.coordinates]
         said = [*words, *self.scene.words]
-        if beyond:
-            said.append(f"What is shown goes beyond the limits of {join_names(beyond)}.")
+        names = beyond(arm.coordinates, reached)
+        if names:
+            said.append(f"What is shown goes beyond the limits of {names}.")
         return replace(
             self.scene,
             title=title,

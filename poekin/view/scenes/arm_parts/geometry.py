@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ....errors import InputError, safe_repr
+from ....errors import InputError, join_names, safe_repr
 from ....groups.arrays import Array
 from ....model.chain_data import ScrewKind
 from ....model.coordinates import coordinates
@@ -149,6 +149,11 @@ def _opening(lower: float, upper: float) -> float:
     if math.isfinite(lower) and math.isfinite(upper):
         return 0.5 * (lower + upper)
     return lower if math.isfinite(lower) else upper
+
+
+def beyond(sliders: tuple[Slider, ...], reached: tuple[Slider, ...]) -> str:
+    """Names of sliders that reach further than before; "" where none does."""
+    return join_names([new.name for old, new in zip(sliders, reached, strict=True) if new != old])
 
 
 def widened(sliders: tuple[Slider, ...], q: Array) -> tuple[Slider, ...]:

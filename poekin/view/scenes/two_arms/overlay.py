@@ -33,7 +33,7 @@ def second_arm(second: Exaggerated, base: Array, factors: Array, shift: Array) -
     chain = second.chain
     geometry = chain_geometry(chain)
     tips = page_tips(chain, ())
-    arm = scene_arm(chain, geometry, tips, np.zeros(chain.dof))
+    arm = scene_arm(chain, geometry, tips, geometry.sliders)
     if second.factor > 1:
         factors = np.vstack([factors, np.zeros(factors.shape[1])])
         shift = np.append(shift, second.factor)
