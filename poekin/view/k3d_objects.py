@@ -7,7 +7,7 @@ than many small ones.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy as np
 from ..errors import MissingExtra
 from .nodes import Cloud, Hung, Label, Node, Polyline, Triangles
 from .palette import color
+from .shapes import merged
 
 LEVEL = 6
 """Level of compression: a page of meshes is made in half the time of level 9, and 1 % larger."""
@@ -78,14 +79,12 @@ def snapshot(objects: Sequence[DrawnObject], script: str) -> str:
 
 def _look(node: Drawable, place: int) -> tuple[object, ...]:
     """Look and link of a node, equal for all nodes of one object."""
-    h = node.hung
     own: object = None
     if isinstance(node, Polyline):
         own = node.width
     elif isinstance(node, Cloud):
         own = place
-    where = (h.layer, h.role, h.link, h.arm, h.rule, h.index, h.choice, h.color, h.opacity)
-    return type(node), own, *where
+    return type(node), own, replace(node.hung, name="")
 
 
 def _made(k3d: Any, drawn: DrawnObject) -> Any:
@@ -93,12 +92,13 @@ def _made(k3d: Any, drawn: DrawnObject) -> Any:
     first = drawn.nodes[0]
     look = {"color": color(drawn.hung), "opacity": drawn.hung.opacity}
     if isinstance(first, Triangles):
-        vertices, faces = _joined((n.vertices, n.faces) for n in drawn.nodes)  # type: ignore[union-attr]
-        return k3d.mesh(vertices, faces, side="double", flat_shading=False, **look)
+        vertices, faces = merged(*((n.vertices, n.faces) for n in drawn.nodes))  # type: ignore[union-attr]
+        shape = {"side": "double", "flat_shading": False}
+        return k3d.mesh(vertices.astype(np.float32), faces.astype(np.uint32), **shape, **look)
     if isinstance(first, Polyline):
-        vertices, pairs = _joined((n.points, _pairs(len(n.points))) for n in drawn.nodes)  # type: ignore[union-attr]
+        vertices, pairs = merged(*((n.points, _pairs(len(n.points))) for n in drawn.nodes))  # type: ignore[union-attr]
         shape = {"indices_type": "segment", "width": first.width, "shader": "mesh"}
-        return k3d.lines(vertices, pairs, **shape, **look)
+        return k3d.lines(vertices.astype(np.float32), pairs.astype(np.uint32), **shape, **look)
     points = np.asarray(first.points, np.float32)
     shape = {"point_size": first.size, "shader": "3d"}
     if first.values is None:
@@ -116,15 +116,3 @@ def _pairs(count: int) -> np.ndarray:
     """Numbers of the ends of the pieces of a line through so many points."""
     start = np.arange(count - 1)
     return np.stack([start, start + 1], axis=1)
-
-
-def _joined(parts: Iterable[tuple[Any, Any]]) -> tuple[np.ndarray, np.ndarray]:
-    """Points of all parts, and their faces or pairs renumbered."""
-    points = []
-    cells = []
-    before = 0
-    for own_points, own_cells in parts:
-        points.append(np.asarray(own_points, np.float32))
-        cells.append(np.asarray(own_cells, np.uint32) + np.uint32(before))
-        before += len(own_points)
-    return np.concatenate(points), np.concatenate(cells)

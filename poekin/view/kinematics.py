@@ -125,6 +125,13 @@ def _tips(tips: Iterable[SceneTip]) -> str:
     return "\n".join(["export const tips = [", *lines, "];", ""])
 
 
+def tip_chain(model: Model, name: str) -> Chain:
+    """Chain from the root to a link, floating and planar joints at their zero pose; a chain itself."""
+    if isinstance(model, Chain):
+        return model
+    return fix_free_joints(model).chain(tip=name)
+
+
 def fix_free_joints(robot: Robot) -> Robot:
     """The robot with its floating and planar joints fixed at their zero pose, so that chains cross
     them.
@@ -146,13 +153,6 @@ def _body_program(chain: Chain) -> Program:
     S[:, 2, 0] = chain.local.rotates
     S[:, 5, 0] = chain.local.slides
     A = se3.adjoint(chain.joint_poses(np.zeros(chain.dof))) @ S
-    C = [[(k, factor) for k, factor in enumerate(row) if factor] for row in chain.coupling.tolist()]
-    tree = TracedTree(
-        range(n),
-        [IDENTITY] * n,
-        A[..., 0].tolist(),
-        list(map(tuple, C)),
-        [0.0] * n,
-        chain.dof,
-    )
+    C = chain.coupling.tolist()
+    tree = TracedTree(range(n), [IDENTITY] * n, A[..., 0].tolist(), C, [0.0] * n)
     return tree_program(tree, range(n + 1))

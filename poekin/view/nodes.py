@@ -24,7 +24,7 @@ Rule = Literal["column_v", "column_w", "ellipsoid_v", "ellipsoid_w", "singular",
 """Rule by which the page moves a node that depends on the Jacobian or the tip's pose."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class Hung:
     """Place of a node: what it hangs on, and what it stands for.
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from ..groups.arrays import Array
+from ..solve.path.path_events import PathEvent
 from .nodes import Layer, Node
 
 
@@ -63,25 +64,15 @@ class SceneArm:
     shift: Array
 
 
-@dataclass(frozen=True, slots=True)
-class PathMark:
-    """Stretch of a path, rows first to last, the kind of what happens there ("switch", "singular",
-    "limit", as `PathEvent` has them), and its sentence.
-    """
-
-    first: int
-    last: int
-    kind: str
-    text: str
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class SceneMotion:
-    """Rows q (n, sliders) at times (n,), s, that the page plays, and what happens on the way."""
+    """Rows q (n, sliders) at times (n,), s, that the page plays, and what happens on the way, first and
+    last by these rows.
+    """
 
     q: Array
     times: Array
-    marks: tuple[PathMark, ...] = ()
+    marks: tuple[PathEvent, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,5 +129,5 @@ class Scene:
     size: float
     motion: SceneMotion | None = None
     choices: tuple[SceneChoice, ...] = ()
-    tables: tuple[PageTable, ...] = field(default=())
+    tables: tuple[PageTable, ...] = ()
     exaggerated: float = 1.0

@@ -46,15 +46,15 @@ def scene_json(scene: Scene, objects: Sequence[DrawnObject]) -> str:
 
 def _arm(arm: SceneArm) -> dict[str, Any]:
     """An arm without its program, which the page runs."""
-    fields = {f.name: getattr(arm, f.name) for f in dataclasses.fields(arm)}
+    fields = _fields(arm)
     del fields["program"]
     return fields | {"base": np.ravel(arm.base)}
 
 
 def _object(drawn: DrawnObject) -> dict[str, Any]:
     names = [n.hung.name for n in drawn.nodes]
-    own = {"id": drawn.number, "kind": _KINDS[type(drawn.nodes[0])], "names": names}
-    return own | _hung(drawn.hung)
+    kind = _KINDS[type(drawn.nodes[0])]
+    return {"id": drawn.number, "kind": kind, "names": names} | _hung(drawn.hung)
 
 
 def _label(node: Label) -> dict[str, Any]:
@@ -62,8 +62,12 @@ def _label(node: Label) -> dict[str, Any]:
 
 
 def _hung(hung: Hung) -> dict[str, Any]:
-    fields = {f.name: getattr(hung, f.name) for f in dataclasses.fields(hung)}
-    return fields | {"color": _css(color(hung))}
+    return _fields(hung) | {"color": _css(color(hung))}
+
+
+def _fields(held: Any) -> dict[str, Any]:
+    """Fields of a data class."""
+    return {field.name: getattr(held, field.name) for field in dataclasses.fields(held)}
 
 
 def _css(value: int) -> str:
@@ -76,7 +80,7 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return _plain(value.tolist())
     if dataclasses.is_dataclass(value):
-        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+        return _plain(_fields(value))
     if isinstance(value, dict):
         return {k: _plain(v) for k, v in value.items()}
     if isinstance(value, list | tuple):

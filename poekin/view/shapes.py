@@ -25,6 +25,11 @@ AROUND = 8
 """Sides of a tube."""
 
 
+def transformed(points: Array, T: Array) -> Array:
+    """Points (..., 3) moved by a pose (4, 4)."""
+    return points @ T[:3, :3].T + T[:3, 3]
+
+
 class Surface(NamedTuple):
     """Triangles: vertices (n, 3), m, and faces (k, 3), numbers of vertices, counter-clockwise seen
     from outside.
@@ -42,11 +47,11 @@ class Surface(NamedTuple):
         return Surface(self.vertices @ turned_least(z).T + point, self.faces)
 
 
-def merged(*surfaces: Surface) -> Surface:
-    """One surface of several that are closed each for itself."""
-    starts = np.cumsum([0, *(len(surface.vertices) for surface in surfaces[:-1])])
-    faces = [surface.faces + start for surface, start in zip(surfaces, starts, strict=True)]
-    return Surface(np.concatenate([s.vertices for s in surfaces]), np.concatenate(faces))
+def merged(*parts: tuple[Array, np.ndarray]) -> Surface:
+    """One surface of several; of lines likewise, whose pieces are pairs (k, 2) of vertices."""
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in parts[:-1])])
+    faces = [faces + start for (_, faces), start in zip(parts, starts, strict=True)]
+    return Surface(np.concatenate([vertices for vertices, _ in parts]), np.concatenate(faces))
 
 
 def creased(surface: Surface) -> Surface:
@@ -125,21 +130,21 @@ def _between_rings(rings: int, sides: int) -> np.ndarray:
     return np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3), *caps])
 
 
-def tube(points: ArrayLike, radius: float, sides: int = AROUND) -> Surface:
+def tube(points: ArrayLike, radius: float) -> Surface:
     """Tube of a radius along a curve through points (n, 3) that does not turn back on itself."""
     points = np.asarray(points, float)
     tangents = np.gradient(points, axis=0)
     tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
     across = turned_least(tangents[0])[:, 0]
     rings = []
-    turn = 2 * np.pi / sides * np.arange(sides)[:, None]
+    turn = 2 * np.pi / AROUND * np.arange(AROUND)[:, None]
     for point, tangent in zip(points, tangents, strict=True):
         across = across - tangent * (tangent @ across)  # carried along without twist
         across = across / np.linalg.norm(across)
         circle = np.cos(turn) * across + np.sin(turn) * np.cross(tangent, across)
         rings.append(point + radius * circle)
     vertices = np.concatenate([*rings, points[[0, -1]]])
-    return creased(Surface(vertices, _between_rings(len(points), sides)))
+    return creased(Surface(vertices, _between_rings(len(points), AROUND)))
 
 
 def cylinder(radius: float, length: float, sides: int = SIDES) -> Surface:
@@ -166,17 +171,15 @@ def capsule(start: ArrayLike, end: ArrayLike, radius: float, sides: int = SIDES)
     start = np.asarray(start, float)
     way = np.asarray(end, float) - start
     length = float(np.linalg.norm(way))
-    turn = np.linspace(0, np.pi, 2 * (sides // 4) + 1)
+    if length <= 1e-6 * radius:
+        ball = sphere(radius, sides)
+        return Surface(ball.vertices + start, ball.faces)
+    quarter = np.linspace(0, 0.5 * np.pi, sides // 4 + 1)
+    turn = np.concatenate([quarter, 0.5 * np.pi + quarter])  # the equator twice, at both ends
     radii = radius * np.sin(turn)
     radii[[0, -1]] = 0.0
-    heights = -radius * np.cos(turn)
-    z = np.array([0.0, 0.0, 1.0])
-    if length > 1e-6 * radius:  # below that, a sphere is as good
-        z = way / length
-        middle = len(turn) // 2  # the equator, twice: at the start and at the end
-        radii = np.insert(radii, middle, radius)
-        heights = np.concatenate([heights[: middle + 1], heights[middle:] + length])
-    return revolved(radii, heights, sides).placed(start, z)
+    heights = -radius * np.cos(turn) + np.repeat([0.0, length], len(quarter))
+    return revolved(radii, heights, sides).placed(start, way / length)
 
 
 def box(sizes: ArrayLike) -> Surface:
@@ -201,18 +204,12 @@ def arrow(
     return revolved([0, shaft, shaft, head, 0], [0, 0, neck, neck, length], sides)
 
 
-def double_arrow(
-    length: float,
-    shaft: float,
-    head: float,
-    head_length: float,
-    sides: int = SIDES,
-) -> Surface:
+def double_arrow(length: float, shaft: float, head: float, head_length: float) -> Surface:
     """Arrow along z with a head at both ends, its middle at the origin: a prismatic joint."""
     half = 0.5 * length
     neck = half - head_length
     heights = [-half, -neck, -neck, neck, neck, half]
-    return revolved([0, head, shaft, shaft, head, 0], heights, sides)
+    return revolved([0, head, shaft, shaft, head, 0], heights)
 
 
 def arc_arrow(radius: float, thickness: float, angle: float = 1.5 * np.pi) -> Surface:
@@ -222,18 +219,19 @@ def arc_arrow(radius: float, thickness: float, angle: float = 1.5 * np.pi) -> Su
     """
     tip = 3.0 * thickness
     neck = angle - 2.0 * tip / radius
-    body = tube(helix_points(radius, neck, 0.0), thickness)
-    there = helix_points(radius, neck, 0.0)[-1]
-    ahead = np.array([-np.sin(0.5 * (neck + angle)), np.cos(0.5 * (neck + angle)), 0.0])
-    return merged(body, cone(tip, 2.0 * tip, AROUND).placed(there, ahead))
+    points = helix_points(radius, neck, 0.0)
+    middle = 0.5 * (neck + angle)
+    ahead = np.array([-np.sin(middle), np.cos(middle), 0.0])
+    head = cone(tip, 2.0 * tip, AROUND).placed(points[-1], ahead)
+    return merged(tube(points, thickness), head)
 
 
-def helix(radius: float, thickness: float, rise: float, turns: float = 3.0) -> Surface:
+def helix(radius: float, thickness: float, rise: float) -> Surface:
     """Tube along a helix about z, its middle at the origin: a helical joint.
 
-    It rises by `rise` metres in all, and is left-handed where that is negative.
+    It rises by `rise` metres in three turns, and is left-handed where that is negative.
     """
-    points = helix_points(radius, 2 * np.pi * turns, rise)
+    points = helix_points(radius, 6 * np.pi, rise)
     return tube(points - [0.0, 0.0, 0.5 * rise], thickness)
 
 

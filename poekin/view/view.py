@@ -35,6 +35,7 @@ OF_ARMS: dict[type, Callable[..., Scene]] = {
 }
 """Scenes of results about one arm, each drawn alone or in its robot."""
 
+_DEFAULTS = {"q": None, "tip": None, "meshes": True, "cloud": 0, "robot": None}
 _EXPECTED = (
     "view: expected a Robot or a Chain, or what compare, follow, ik, ik_all, singularity or "
     "calibrate returned"
@@ -63,7 +64,7 @@ def view(
     tip : str, optional
         Link of a robot whose Jacobian is shown first.
     meshes : bool, default True
-        Whether a robot's visual meshes are drawn where they are found.
+        Whether the visual meshes of a robot x are drawn where they are found.
     cloud : int, default 0
         Number of random configurations of a model whose tip positions are drawn.
     robot : Robot, optional
@@ -119,7 +120,7 @@ def _scene(x: Any, options: dict[str, Any]) -> Scene:
         return calibration_scene(x)
     for kind, scene in OF_ARMS.items():
         if isinstance(x, kind):
-            _refuse(x, options, "q", "tip", "cloud")
+            _refuse(x, options, "q", "tip", "meshes", "cloud")
             return scene(x, options["robot"])
     raise InputError(f"{_EXPECTED}, got {safe_repr(x)}")
 
@@ -127,6 +128,5 @@ def _scene(x: Any, options: dict[str, Any]) -> Scene:
 def _refuse(x: Any, options: dict[str, Any], *names: str) -> None:
     """Refuses options that do not go with what is shown."""
     for name in names:
-        given = options[name]
-        if given is not None and not (name == "cloud" and given == 0):
+        if options[name] is not _DEFAULTS[name]:
             raise InputError(f"{name}: no option of a page of {quote(type(x).__name__)}")

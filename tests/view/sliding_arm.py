@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from poekin.solve.path.path_events import PathEvent
 from poekin.view.nodes import Cloud, Hung, Label, Node, Polyline, Triangles
 from poekin.view.scene import (
     PageTable,
-    PathMark,
     Scene,
     SceneArm,
     SceneChoice,
@@ -117,7 +117,7 @@ def scene(name: str = "sliding arm", **changes: Any) -> Scene:
         "motion": SceneMotion(
             np.linspace([0, 0, 0], [1.5, 2, 0.3], 50),
             np.linspace(0, 4, 50),
-            (PathMark(10, 20, "singular", "Near a singularity."),),
+            (PathEvent(10, 20, "singular", "Near a singularity."),),
         ),
         "choices": (
             SceneChoice(np.array([0.4, 0.9, 0.1]), "elbow left"),

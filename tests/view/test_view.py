@@ -57,6 +57,7 @@ def test_what_cannot_be_shown_is_refused_with_what_can(x):
         ("comparison", {"robot": ROBOT}),
         ("ik", {"q": np.zeros(6)}),
         ("singularity", {"cloud": 10}),
+        ("path", {"meshes": False}),
         ("calibration", {"q": [0] * 6}),
     ],
 )

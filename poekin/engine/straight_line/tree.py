@@ -8,7 +8,7 @@ from typing import Any
 
 from ...algebra import IDENTITY
 from ...formulas.kinematics import forward
-from .program import Angles, Program, Terms, program
+from .program import Angles, Program, program
 from .specialise import Pose
 from .trace import Graph
 
@@ -18,16 +18,15 @@ class TracedTree:
     """Links as `forward.child` takes them: joint j hangs link j + 1 on link parents[j] <= j.
 
     `origins` (J) are the joints' constant poses and `screws` (J) their (omega; v) in their own
-    frames, zeros where a joint does not move. Joint j is at x_j, the sum of factor * q_k over
-    terms[j], plus shifts[j]. `coordinates` is m.
+    frames, zeros where a joint does not move. Joint j is at x_j, the sum of factors[j][k] * q_k over
+    the m coordinates, plus shifts[j].
     """
 
     parents: Sequence[int]
     origins: Sequence[Pose]
     screws: Sequence[Sequence[float]]
-    terms: Sequence[Terms]
+    factors: Sequence[Sequence[float]]
     shifts: Sequence[float]
-    coordinates: int
 
 
 def tree_program(tree: TracedTree, links: Sequence[int]) -> Program:
@@ -38,11 +37,10 @@ def tree_program(tree: TracedTree, links: Sequence[int]) -> Program:
     angles = Angles(graph)
     poses: list[tuple[Any, ...]] = [IDENTITY]
     for j, parent in enumerate(tree.parents):
-        factors = [0.0] * tree.coordinates
-        for k, factor in tree.terms[j]:
-            factors[k] += factor
-        sine, cosine = angles.sine_cosine(factors, tree.shifts[j], 0)
-        x = graph.linear(tree.terms[j], tree.shifts[j])
+        factors = tree.factors[j]
+        shift = tree.shifts[j]
+        sine, cosine = angles.sine_cosine(factors, shift, 0)
+        x = graph.linear(((k, factor) for k, factor in enumerate(factors) if factor), shift)
         origin = tree.origins[j]
         poses.append(forward.child(poses[parent], origin, tree.screws[j], x, sine, cosine))
     return program(graph, angles, [number for link in links for number in poses[link]])

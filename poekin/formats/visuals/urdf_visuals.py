@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import get_args
 
 from ...errors import ModelError, quote
-from ...groups.arrays import Array
 from ...model.provenance import Source
 from ..text import xml
 from ..text.xml_reader import Fields
@@ -53,11 +52,11 @@ def _visual(
     quaternions: bool,
     colors: dict[str, Color | None],
 ) -> Visual:
-    geometry = next(iter(element.children("geometry")), None)
+    geometry = _first(element, "geometry")
     if geometry is None:
         raise element.fault("expected an element <geometry>, there is none")
     shape, fields = _shape(geometry)
-    material = next(iter(element.children("material")), None)
+    material = _first(element, "material")
     color = None
     if material is not None:
         color = _color(material, colors)
@@ -66,7 +65,7 @@ def _visual(
         file = fields.name("filename")
     return Visual(
         link,
-        _pose(element, quaternions),
+        origin_of(_first(element, "origin"), quaternions),
         shape,
         _size(fields, shape),
         color,
@@ -83,8 +82,8 @@ def _shape(geometry: Fields) -> tuple[Shape, Fields]:
     raise geometry.fault(f"expected one of {', '.join(get_args(Shape))}, got {tags}")
 
 
-def _pose(element: Fields, quaternions: bool) -> Array:
-    return origin_of(next(iter(element.children("origin")), None), quaternions)
+def _first(element: Fields, tag: str) -> Fields | None:
+    return next(iter(element.children(tag)), None)
 
 
 def _size(fields: Fields, shape: Shape) -> tuple[float, ...]:
@@ -113,7 +112,7 @@ def _color(
     if colors.get(name) is not None:
         return colors[name]
     color = None
-    element = next(iter(material.children("color")), None)
+    element = _first(material, "color")
     if element is not None:
         rgba = element.numbers("rgba", 4) or [1.0] * 4
         r, g, b, alpha = (min(max(value, 0.0), 1.0) for value in rgba)

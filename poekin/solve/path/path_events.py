@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Literal, NamedTuple
+from dataclasses import dataclass
+from typing import Literal
 
 from ...errors import quote
 from .path_interval import PathInterval
@@ -11,10 +12,11 @@ from .path_interval import PathInterval
 EventKind = Literal["missed", "switch", "limit", "speed", "acceleration", "singular"]
 
 
-class PathEvent(NamedTuple):
+@dataclass(frozen=True)
+class PathEvent:
     """Event on a path, and where.
 
-    Parameters
+    Attributes
     ----------
     first, last : int
         Numbers of the first and the last point.

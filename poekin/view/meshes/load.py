@@ -13,6 +13,7 @@ import os
 import re
 import struct
 from collections import Counter
+from collections.abc import Iterable
 from importlib import import_module
 from typing import Any, NamedTuple
 
@@ -20,6 +21,7 @@ import numpy as np
 
 from ...errors import FileError, MissingExtra, PoekinError, escape_unprintable
 from ...formats.text import xml
+from .. import shapes
 from . import refuse
 
 ENDINGS = {".stl": "stl", ".obj": "obj", ".dae": "dae", ".glb": "glb", ".ply": "ply"}
@@ -101,7 +103,7 @@ def _piece(scene: Any, name: str) -> list[tuple[np.ndarray, np.ndarray, int | No
     faces = np.asarray(getattr(geometry, "faces", ()), dtype=np.int64)
     if not len(faces):
         return []
-    vertices = np.asarray(geometry.vertices, dtype=float) @ T[:3, :3].T + T[:3, 3]
+    vertices = shapes.transformed(np.asarray(geometry.vertices, dtype=float), T)
     unit = str(geometry.metadata.get("units") or "meters").partition(" * ")
     if unit[2]:
         vertices *= float(unit[0])
@@ -120,29 +122,25 @@ def _color(visual: Any) -> int | None:
         material = visual.material
         if material is None:
             return None
-        rgba = material.main_color
-    elif visual.kind == "face":
-        rgba = Counter(map(tuple, visual.face_colors.tolist())).most_common(1)[0][0]
-    else:
-        rgba = Counter(map(tuple, visual.vertex_colors.tolist())).most_common(1)[0][0]
-    r, g, b = (int(value) for value in rgba[:3])
-    return r << 16 | g << 8 | b
+        return rgb(material.main_color)
+    colors = visual.face_colors if visual.kind == "face" else visual.vertex_colors
+    ((commonest, _),) = Counter(map(tuple, colors.tolist())).most_common(1)
+    return rgb(commonest)
+
+
+def rgb(color: Iterable[float]) -> int:
+    """Colour 0xRRGGBB of red, green and blue from 0 to 255, whatever is behind them."""
+    red, green, blue, *_ = map(round, color)
+    return red << 16 | green << 8 | blue
 
 
 def merged(pieces: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
     """Vertices, each once, and faces of several pieces, without faces of no area."""
-    vertices, faces = joined(pieces)
+    vertices, faces = shapes.merged(*pieces)
     vertices = vertices.astype(np.float32) + np.float32(0)  # -0 is 0
     keys = vertices.view(np.dtype((np.void, vertices.dtype.itemsize * 3))).ravel()
     _, first, place = np.unique(keys, return_index=True, return_inverse=True)
     return vertices[first], proper(place.ravel()[faces])
-
-
-def joined(pieces: list[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and faces of several pieces as those of one."""
-    shifts = np.cumsum([0, *(len(vertices) for vertices, _ in pieces[:-1])])
-    shifted = [faces + shift for (_, faces), shift in zip(pieces, shifts, strict=True)]
-    return np.concatenate([vertices for vertices, _ in pieces]), np.concatenate(shifted)
 
 
 def proper(faces: np.ndarray) -> np.ndarray:

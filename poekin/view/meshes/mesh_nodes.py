@@ -11,28 +11,25 @@ from ...formats.visuals.of_robot import visuals_of
 from ...formats.visuals.visual import LeftOut, Visual
 from ...model.robot import Robot
 from .. import shapes
-from ..nodes import Hung, Role, Triangles
+from ..nodes import Hung, Triangles
 from .find import MeshFinder
 from .kept import parts_of
-from .load import FARTHEST, MeshPart, joined, merged
+from .load import FARTHEST, MeshPart, merged, rgb
 from .reduce import limit_for, reduced
 
 BUDGET = 400_000
 """Triangles of a robot; a page of them has 5 MB."""
 MOST_BYTES = 512 * 2**20
 """Bytes of all mesh files of a robot together."""
-ROLES: tuple[Role, Role] = ("first", "second")
 
 
-def mesh_nodes(robot: Robot, arm: int = 0) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]]:
+def mesh_nodes(robot: Robot) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]]:
     """Nodes of all that can be drawn of a robot, and what cannot, with the reason.
 
     Parameters
     ----------
     robot : Robot
         Robot that was read from a URDF or MJCF; there is nothing to draw of another one.
-    arm : int
-        Number of the robot in the scene.
 
     Returns
     -------
@@ -71,14 +68,14 @@ def mesh_nodes(robot: Robot, arm: int = 0) -> tuple[tuple[Triangles, ...], tuple
         for part in parts if opacity else ():
             vertices, faces, diagonal = reader.reduced(part, limit)
             moved = max(moved, diagonal * _largest(visual))
-            color = part.color if visual.color is None else _rgb(visual.color[:3])
+            color = part.color if visual.color is None else rgb(255 * c for c in visual.color)
             group = pieces.setdefault((visual.link, color, opacity), [])
             group.append(_placed(visual, vertices, faces))
     nodes = []
     for (link, color, opacity), group in pieces.items():
         number = robot.links.index(link)
-        hung = Hung("meshes", ROLES[arm], number, arm, link, color=color, opacity=opacity)
-        nodes.append(Triangles(hung, *joined(group)))
+        hung = Hung("meshes", "first", number, name=link, color=color, opacity=opacity)
+        nodes.append(Triangles(hung, *shapes.merged(*group)))
     if moved:
         words = f"{sum(counts)} triangles are drawn as {sum(len(node.faces) for node in nodes)}"
         why = f"no vertex is more than {moved * 1e3:.2g} mm off"
@@ -141,12 +138,11 @@ def _placed(
     points = np.asarray(vertices, dtype=float)
     if visual.shape == "mesh":
         if visual.T_mesh is not None:
-            points = points @ visual.T_mesh[:3, :3].T + visual.T_mesh[:3, 3]
+            points = shapes.transformed(points, visual.T_mesh)
         points = points * visual.size
         if np.prod(visual.size) < 0:
             faces = faces[:, ::-1]
-    T = visual.T_link_visual
-    return points @ T[:3, :3].T + T[:3, 3], faces
+    return shapes.transformed(points, visual.T_link_visual), faces
 
 
 def _largest(visual: Visual) -> float:
@@ -160,8 +156,3 @@ def _farthest(visual: Visual, parts: tuple[MeshPart, ...]) -> float:
     if visual.T_mesh is not None:
         farthest += float(np.abs(visual.T_mesh[:3, 3]).max())
     return farthest * _largest(visual) + float(np.abs(visual.T_link_visual[:3, 3]).max())
-
-
-def _rgb(color: tuple[float, ...]) -> int:
-    r, g, b = (round(255 * value) for value in color)
-    return r << 16 | g << 8 | b

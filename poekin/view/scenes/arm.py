@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,20 +16,19 @@ from ...model.joint import FREE
 from ...model.kinematics.arm import chain_of
 from ...model.kinematics.compiled import CompiledChain
 from ...model.robot import Robot
-from ..kinematics import kinematics, page_tips
+from ..kinematics import Model, kinematics, page_tips, tip_chain
 from ..meshes.mesh_nodes import mesh_nodes
 from ..nodes import Layer, Node, Triangles
-from ..scene import Scene, SceneArm, SceneTip
+from ..scene import Scene, SceneArm, SceneTip, Slider
+from ..shapes import transformed
 from .arm_parts.axes import axis_nodes, frame_nodes, label_nodes, screw_table
-from .arm_parts.geometry import ArmGeometry, opening_q
+from .arm_parts.geometry import ArmGeometry, beyond, opening_q, widened
 from .arm_parts.jacobian import jacobian_nodes, singular_words
 from .arm_parts.missing import left_out_words, stand_ins
 from .arm_parts.of_chain import chain_geometry
-from .arm_parts.of_robot import chain_to, robot_geometry
+from .arm_parts.of_robot import robot_geometry
 from .arm_parts.reach import reach_cloud
 from .arm_parts.skeleton import glyph_radii, skeleton_nodes
-
-Model = Robot | Chain
 
 POINT = 1e-6
 """Size up to which an arm is a point, m."""
@@ -96,20 +94,25 @@ def arm_scene(
     nodes = [*bodies, *arm_nodes(arm, opening, size, bool(bodies))]
     if bodies:
         nodes += stand_ins(arm, left_out, bodies, size)
-    moved = [chain for chain in _chains(model, tips[:1]) if chain.dof]
-    if moved:
-        nodes += jacobian_nodes(max(len(tip.coordinates) for tip in tips), size)
-    if cloud:
-        nodes += [reach_cloud(chain, arm.links.index(chain.base), cloud, size) for chain in moved]
-    words = [*_model_words(model, arm), *_beyond(arm, opening), *left_out_words(left_out)]
-    values = {slider.name: x for slider, x in zip(arm.sliders, opening, strict=True)}
-    for chain in moved:
-        words += singular_words(chain, np.array([values[name] for name in chain.q_names]))
+    columns = max(len(tip.coordinates) for tip in tips)
+    if columns:
+        nodes += jacobian_nodes(columns, size)
+    words = _model_words(model, arm)
+    reached = widened(arm.sliders, opening[None])
+    names = beyond(arm.sliders, reached)
+    if names:
+        words.append(f"The page opens beyond the limits of {names}.")
+    words += left_out_words(left_out)
+    chain = tip_chain(model, tips[0].name)
+    if chain.dof:
+        words += singular_words(chain, opening[list(tips[0].coordinates)])
+    if cloud and chain.dof:
+        nodes.append(reach_cloud(chain, cloud, size))
     shown: set[Layer] = {"axes", "frames", "meshes" if bodies else "skeleton"}
     return Scene(
         title=arm.name,
         words=tuple(words),
-        arms=(scene_arm(model, arm, tips, opening),),
+        arms=(scene_arm(model, arm, tips, reached),),
         q=opening,
         nodes=tuple(nodes),
         shown=frozenset(shown),
@@ -130,15 +133,11 @@ def arm_size(arm: ArmGeometry, q: Array, bodies: Iterable[Triangles] = ()) -> fl
     T = arm.poses(q)
     points = [arm.points(q)]
     for body in bodies:
-        corners = np.stack(np.meshgrid(*_bounds(body.vertices)), axis=-1).reshape(-1, 3)
-        points.append(corners @ T[body.hung.link, :3, :3].T + T[body.hung.link, :3, 3])
+        bounds = np.stack([body.vertices.min(axis=0), body.vertices.max(axis=0)], axis=-1)
+        corners = np.stack(np.meshgrid(*bounds), axis=-1).reshape(-1, 3)
+        points.append(transformed(corners, T[body.hung.link]))
     diagonal = float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
     return diagonal if diagonal > POINT else 1.0
-
-
-def _bounds(points: Array) -> Array:
-    """Least and greatest coordinates (3, 2) of points."""
-    return np.stack([points.min(axis=0), points.max(axis=0)], axis=-1)
 
 
 def arm_nodes(arm: ArmGeometry, q: Array, size: float, covered: bool = False) -> list[Node]:
@@ -158,18 +157,15 @@ def scene_arm(
     model: Model,
     arm: ArmGeometry,
     tips: tuple[SceneTip, ...],
-    q: Array,
+    sliders: tuple[Slider, ...],
 ) -> SceneArm:
-    """The model as an arm of a page whose sliders are its own coordinates."""
-    m = len(arm.sliders)
+    """The model as an arm of a page with sliders of its own coordinates."""
+    m = len(sliders)
     return SceneArm(
         name=arm.name,
         program=kinematics(model, tips),
         links=arm.links,
-        coordinates=tuple(
-            replace(slider, lower=min(slider.lower, x), upper=max(slider.upper, x))
-            for slider, x in zip(arm.sliders, q.tolist(), strict=True)
-        ),
+        coordinates=sliders,
         tips=tips,
         base=np.eye(4),
         factors=np.eye(m),
@@ -186,12 +182,6 @@ def _asked(model: Model, tip: str | None) -> tuple[str, ...]:
     return (tip,)
 
 
-def _chains(model: Model, tips: Iterable[SceneTip]) -> list[Chain]:
-    if isinstance(model, Chain):
-        return [model]
-    return [chain_to(model, tip.name) for tip in tips]
-
-
 def _model_words(model: Model, arm: ArmGeometry) -> list[str]:
     """Sentences on what the model is."""
     joints = len(arm.joints)
@@ -205,15 +195,3 @@ def _model_words(model: Model, arm: ArmGeometry) -> list[str]:
         if free:
             words.append(f"Floating and planar joints are at zero: {join_names(free)}.")
     return words
-
-
-def _beyond(arm: ArmGeometry, q: Array) -> list[str]:
-    """Sentence on the coordinates of q that are beyond their limits."""
-    beyond = [
-        slider.name
-        for slider, x in zip(arm.sliders, q, strict=True)
-        if not slider.lower <= x <= slider.upper
-    ]
-    if not beyond:
-        return []
-    return [f"The page opens beyond the limits of {join_names(beyond)}."]

@@ -17,13 +17,12 @@ from ..scene import PageTable, Scene
 from ..shapes import arrow, merged
 from .arm import arm_scene
 from .arm_parts.of_chain import chain_geometry
-from .two_arms.exaggerated import STEPS, exaggerated
+from .stage import evenly
+from .two_arms.exaggerated import STEPS, exaggerated, visible_factor
 from .two_arms.overlay import second_arm, second_nodes
 
 MOST = 400
 """Residuals that are drawn."""
-VISIBLE = 0.1
-"""Largest length of nine residuals of ten as a share of the arm's size."""
 SIDES = 5
 """Sides of the polygon that stands for an arrow's circle."""
 
@@ -54,7 +53,9 @@ def calibration_scene(found: Calibration) -> Scene:
     nodes = second_nodes(second, chain_geometry(own), {}, (), scene.size)
     words = [changes.sentence(found), *found.warnings]
     if vectors is not None and len(vectors.places):
-        k = _factor(vectors, scene.size)
+        lengths = np.linalg.norm([vectors.before, vectors.after], axis=-1)
+        nine_of_ten = float(np.quantile(lengths, 0.9))
+        k = visible_factor(nine_of_ten, scene.size, (1000.0, *STEPS))
         nodes += _residuals(vectors, k, scene.size)
         words.append(
             f"Residuals are drawn {k:g} times as long, from the measured point to where the nominal"
@@ -78,16 +79,9 @@ def correction_table(found: Calibration) -> PageTable:
     return PageTable("Corrections of the axes", changes.HEADS, rows)
 
 
-def _factor(vectors: ResidualVectors, size: float) -> float:
-    """The largest factor of `STEPS` by which nine residuals of ten stay `VISIBLE`."""
-    lengths = np.linalg.norm([vectors.before, vectors.after], axis=-1)
-    largest = float(np.quantile(lengths, 0.9))
-    return next((k for k in (1000.0, *STEPS) if k * largest <= VISIBLE * size), 1.0)
-
-
 def _residuals(vectors: ResidualVectors, k: float, size: float) -> Iterator[Node]:
     """Measured points, and arrows from them to where the two arms have them, k times as long."""
-    chosen = np.unique(np.linspace(0, len(vectors.places) - 1, MOST).round().astype(int))
+    chosen = evenly(len(vectors.places), MOST)
     measured = (vectors.places - vectors.after)[chosen]
     lengths = np.linalg.norm(vectors.before[chosen], axis=1)
     yield Cloud(Hung("cloud", "second", 0, name="measured points"), measured, 0.006 * size, lengths)

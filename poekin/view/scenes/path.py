@@ -10,11 +10,12 @@ import numpy as np
 from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.robot import Robot
+from ...solve.path.path_events import PathEvent
 from ...solve.path.path_result import PathResult
 from ..nodes import Label, Node, Polyline, Triangles
-from ..scene import PathMark, Scene, SceneMotion
+from ..scene import Scene, SceneMotion
 from ..shapes import sphere
-from .stage import Stage, make_stage
+from .stage import Stage, evenly, make_stage
 from .targets import pose_nodes
 
 SECONDS = 10.0
@@ -58,15 +59,17 @@ def path_scene(path: PathResult, robot: Robot | None = None) -> Scene:
     targets = path.solution.target
     frames: list[Node] = []
     if targets is not None:
-        thinned = known[_evenly(len(known), FRAMES)]
+        thinned = known[evenly(len(known), FRAMES)]
         frames = pose_nodes(stage, targets[thinned], 0.05 * stage.size, "pose")
+    motion = _motion(path, known, stage)
     scene = stage.with_result(
         f"Path of {path.chain.tip} in {path.chain.base}",
         path.summary().splitlines()[:MOST_WORDS],
         [*_way(path, points, stage), *frames],
         "path",
+        rows=motion.q,
     )
-    return replace(scene, motion=_motion(path, known, stage))
+    return replace(scene, motion=motion)
 
 
 def _way(path: PathResult, points: Array, stage: Stage) -> Iterator[Node]:
@@ -93,25 +96,17 @@ def _way(path: PathResult, points: Array, stage: Stage) -> Iterator[Node]:
 def _motion(path: PathResult, known: np.ndarray, stage: Stage) -> SceneMotion:
     """Joints over time, every k-th row and those beside a change of branch; marks by these rows."""
     switches = np.array(path.branch_switches, int)
-    wanted = np.concatenate([known[_evenly(len(known), ROWS)], switches, switches - 1])
+    wanted = np.concatenate([known[evenly(len(known), ROWS)], switches, switches - 1])
     rows = np.intersect1d(wanted, known)
     times = path.times
     if times is None:
         times = np.linspace(0.0, SECONDS, len(path.q))
-    marks = [
-        PathMark(*_between(rows, event.first, event.last), event.kind, event.text)
-        for event in path.events
-    ]
-    return SceneMotion(stage.configurations(path.q[rows]), times[rows], tuple(marks))
+    marks = tuple(_by_rows(event, rows) for event in path.events)
+    return SceneMotion(stage.configurations(path.q[rows]), times[rows], marks)
 
 
-def _between(rows: np.ndarray, first: int, last: int) -> tuple[int, int]:
-    """Rows of the motion from the point `first` to `last`, one at least."""
-    end = len(rows) - 1
-    begin = min(int(np.searchsorted(rows, first)), end)
-    return begin, max(begin, int(np.searchsorted(rows, last, side="right")) - 1)
-
-
-def _evenly(count: int, most: int) -> np.ndarray:
-    """Indices of at most so many of `count` things, the first and the last among them."""
-    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+def _by_rows(event: PathEvent, rows: np.ndarray) -> PathEvent:
+    """An event from the first to the last of the rows that are played in it, one at least."""
+    first = min(int(np.searchsorted(rows, event.first)), len(rows) - 1)
+    last = int(np.searchsorted(rows, event.last, side="right")) - 1
+    return replace(event, first=first, last=max(first, last))

@@ -12,13 +12,13 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.robot import Robot
 from ...solve.ik_all.all_solutions import AllSolutions
-from ..nodes import Node, Role, Triangles
+from ..nodes import Role, Triangles
 from ..scene import Scene, SceneChoice
+from ..shapes import transformed
 from .arm_parts.of_chain import chain_geometry
 from .arm_parts.skeleton import glyph_radii, skeleton_nodes
 from .stage import Stage, make_stage
 from .targets import MOST, asked_of, configuration_words, target_nodes
-from .two_arms.overlay import moved_node
 
 GHOST = 0.3
 """Opacity of a solution that is not the present one."""
@@ -53,6 +53,7 @@ def solutions_scene(found: AllSolutions, robot: Robot | None = None) -> Scene:
         raise InputError(f"view: a finite target expected, got {found.summary()}")
     q = found.solutions[:MOST]
     stage = make_stage(chain, q[0] if len(q) else None, robot)
+    rows = stage.configurations(q)
     words = [found.summary()]
     if len(q) < len(found.solutions):
         words.append(f"The first {MOST} of {len(found.solutions)} solutions are shown.")
@@ -62,13 +63,13 @@ def solutions_scene(found: AllSolutions, robot: Robot | None = None) -> Scene:
         [*_ghosts(chain, q, stage), *target_nodes(stage, target)],
         "path",
         "solutions",
+        rows=rows,
     )
-    rows = enumerate(stage.configurations(q))
-    choices = tuple(SceneChoice(row, _words(found, chain, k)) for k, row in rows)
+    choices = tuple(SceneChoice(row, _words(found, chain, k)) for k, row in enumerate(rows))
     return replace(scene, choices=choices)
 
 
-def _ghosts(chain: Chain, q: Array, stage: Stage) -> Iterator[Node]:
+def _ghosts(chain: Chain, q: Array, stage: Stage) -> Iterator[Triangles]:
     """The skeleton at each solution, in the frame of the chain's base."""
     arm = chain_geometry(chain)
     zero = np.zeros(chain.dof)
@@ -77,10 +78,8 @@ def _ghosts(chain: Chain, q: Array, stage: Stage) -> Iterator[Node]:
         T = arm.poses(row)
         for node in bones:
             role: Role = "second" if node.hung.role == "first" else node.hung.role
-            name = f"solution {k + 1}"
-            hung = stage.hung("solutions", role, name, choice=k, opacity=GHOST)
-            if isinstance(node, Triangles) and node.hung.link is not None:
-                yield moved_node(node, T[node.hung.link], hung)
+            hung = stage.hung("solutions", role, f"solution {k + 1}", choice=k, opacity=GHOST)
+            yield Triangles(hung, transformed(node.vertices, T[node.hung.link]), node.faces)
 
 
 def _words(found: AllSolutions, chain: Chain, k: int) -> str:

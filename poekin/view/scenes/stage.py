@@ -17,7 +17,7 @@ from ...model.robot import Robot
 from ..nodes import Hung, Layer, Node, Role
 from ..scene import Scene
 from .arm import arm_scene
-from .arm_parts.geometry import opening_q
+from .arm_parts.geometry import beyond, opening_q, widened
 from .arm_parts.of_robot import robot_geometry
 
 
@@ -67,12 +67,22 @@ class Stage(NamedTuple):
         words: Iterable[str],
         nodes: Iterable[Node],
         *layers: Layer,
+        rows: Array | None = None,
     ) -> Scene:
-        """The scene with a title, words before its own, nodes, and layers that are shown."""
+        """The scene with a title, words before its own, nodes, layers that are shown, and sliders
+        that reach the rows (N, sliders) that a reader can have shown, rad or m.
+        """
+        arm = self.scene.arms[0]
+        reached = widened(arm.coordinates, self.scene.q[None] if rows is None else rows)
+        said = [*words, *self.scene.words]
+        names = beyond(arm.coordinates, reached)
+        if names:
+            said.append(f"What is shown goes beyond the limits of {names}.")
         return replace(
             self.scene,
             title=title,
-            words=(*words, *self.scene.words),
+            words=tuple(said),
+            arms=(replace(arm, coordinates=reached),),
             nodes=(*self.scene.nodes, *nodes),
             shown=self.scene.shown | {*layers},
         )
@@ -107,3 +117,8 @@ def whole_q(robot: Robot, chain: Chain, q: Array | None) -> Array:
 def _sliders(robot: Robot, chain: Chain) -> tuple[int, ...]:
     """Numbers of a chain's coordinates among its robot's."""
     return tuple(map(robot.q_names.index, chain.q_names))
+
+
+def evenly(count: int, most: int) -> np.ndarray:
+    """Indices of at most so many of `count` things, the first and the last among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))

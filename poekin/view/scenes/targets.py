@@ -84,18 +84,19 @@ def solution_scene(found: Solution, robot: Robot | None = None) -> Scene:
         raise InputError(f"view: expected a finite target, got {found.summary()}")
     stage = make_stage(chain, q[known[0]], robot)
     shown = known[:MOST]
+    rows = stage.configurations(q[shown])
+    words = [found.summary()]
+    if len(known) > MOST:
+        words.append(f"The first {MOST} of {len(known)} targets are shown.")
     scene = stage.with_result(
         f"Inverse kinematics of {chain.tip} in {chain.base}",
-        [found.summary()],
+        words,
         target_nodes(stage, poses[shown]),
         "path",
+        rows=rows,
     )
     if not found.success.ndim:
         return scene
-    if len(known) > MOST:
-        more = f"The first {MOST} of {len(known)} targets are shown."
-        scene = replace(scene, words=(scene.words[0], more, *scene.words[1:]))
-    rows = stage.configurations(q[shown])
     flat = zip(shown.tolist(), rows, found.reason.reshape(-1)[shown], strict=True)
     choices = tuple(SceneChoice(row, f"target {k}: {reason}") for k, row, reason in flat)
     return replace(scene, choices=choices)

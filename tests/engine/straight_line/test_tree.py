@@ -29,9 +29,8 @@ def test_poses_are_the_formulas_on_numbers():
         parents=[0, 1, 1, 3, 2],
         origins=[tilted(1), UP, tilted(2), tilted(3), UP],
         screws=[TURN, SLIDE, (s, 0, s, 0.1, 0.2, 0.3), STILL, TURN],
-        terms=[((0, 1.0),), ((1, -2.0), (0, 0.5)), ((1, 1.0), (2, 1.0)), (), ()],
+        factors=[[1.0, 0, 0], [0.5, -2.0, 0], [0, 1.0, 1.0], [0, 0, 0], [0, 0, 0]],
         shifts=[0.0, 0.25, math.pi / 2, 0.0, 0.75],
-        coordinates=3,
     )
     q = np.random.default_rng(4).uniform(-2, 2, (6, 3))
     links = [3, 0, 5, 4]
@@ -39,7 +38,10 @@ def test_poses_are_the_formulas_on_numbers():
     for row, poses in zip(q.tolist(), found, strict=True):
         wanted = [IDENTITY]
         for j, parent in enumerate(tree.parents):
-            x = sum(factor * row[k] for k, factor in tree.terms[j]) + tree.shifts[j]
+            x = (
+                sum(factor * x for factor, x in zip(tree.factors[j], row, strict=True))
+                + tree.shifts[j]
+            )
             origin, screw = tree.origins[j], tree.screws[j]
             moved = forward.child(wanted[parent], origin, screw, x, math.sin(x), math.cos(x))
             wanted.append(moved)
@@ -52,9 +54,9 @@ def test_poses_are_the_formulas_on_numbers():
 def test_what_is_fixed_or_about_an_axis_of_the_frame_costs_nothing_of_its_own():
     def count(*screws):
         joints = range(len(screws))
-        terms = [((j, 1.0),) for j in joints]
+        factors = np.eye(len(screws)).tolist()
         zeros = [0.0] * len(screws)
-        tree = TracedTree(joints, [UP] * len(screws), screws, terms, zeros, len(screws))
+        tree = TracedTree(joints, [UP] * len(screws), screws, factors, zeros)
         made = tree_program(tree, [len(screws)]).count
         return made.multiplications, made.additions, made.sines
 

@@ -353,7 +353,7 @@ def test_a_cloud_holds_points_that_the_tip_reaches():
     assert "cloud" not in arm_scene(arm, cloud=50).shown
 
 
-def test_the_cloud_of_a_floating_robot_hangs_on_the_link_that_floats():
+def test_the_cloud_of_a_floating_robot_is_where_the_floating_joint_is_zero():
     robot = pk.Robot(
         "drone",
         ["world", "body", "hand"],
@@ -364,8 +364,15 @@ def test_the_cloud_of_a_floating_robot_hangs_on_the_link_that_floats():
     )
     scene = arm_scene(robot, cloud=3)
     (cloud,) = of_kind(scene.nodes, Cloud, "cloud")
-    assert robot.links[cloud.hung.link] == "body"
+    assert cloud.hung.link is None
+    np.testing.assert_allclose(cloud.points, [[0.1, 0, 1]] * 3, atol=1e-15)
     assert "Floating and planar joints are at zero: 'fly'." in scene.words
+
+
+def test_a_tip_that_nothing_moves_leaves_the_others_their_jacobians():
+    scene = arm_scene(pk.load("panda"), tip="panda_link0", meshes=False)
+    assert scene.arms[0].tips[0].coordinates == ()
+    assert len(columns(scene, "column_v")) == 8
 
 
 @pytest.mark.parametrize("model", ["chain", "robot"])

@@ -58,8 +58,7 @@ def test_limits_and_singular_stretches_are_marked_where_they_are_with_their_sent
     q[30:33] = 0.0  # the Panda's elbow is stretched there, which its limits exclude
     path = joint_path(ARM, q)
     scene = path_scene(path)
-    kinds = {(m.first, m.last, m.kind, m.text) for m in motion_of(scene).marks}
-    assert kinds == {tuple(event) for event in path.events}
+    assert motion_of(scene).marks == path.events
     assert {"limit", "singular"} <= {m.kind for m in motion_of(scene).marks}
     (limit,) = [n for n in marked(scene) if n.hung.name.startswith("poses 10 to 20")]
     assert isinstance(limit, Polyline)
@@ -113,3 +112,13 @@ def test_the_way_of_a_part_of_a_robot_hangs_on_the_link_where_the_part_begins():
     scene = path_scene(joint_path(part, Q[:, 2:]), ROBOT)
     links = {n.hung.link for n in scene.nodes if n.hung.layer == "path"}
     assert links == {ROBOT.links.index("panda_link2")}
+
+
+def test_what_is_played_beyond_the_limits_is_reached_by_the_sliders_and_said():
+    end = HIGH.copy()
+    end[0] += 0.5
+    q = np.linspace(START, end, 5)
+    scene = path_scene(joint_path(ARM, q))
+    assert [x.upper for x in scene.arms[0].coordinates] == end.tolist()
+    assert scene.words[-1] == f"What is shown goes beyond the limits of '{ARM.q_names[0]}'."
+    assert "beyond" not in " ".join(path_scene(joint_path(ARM, Q)).words)

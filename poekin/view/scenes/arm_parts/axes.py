@@ -38,23 +38,16 @@ def axis_nodes(
     nodes: list[Node] = []
     for k, (joint, radius) in enumerate(zip(arm.joints, radii, strict=True)):
         title = f"A{k + 1}"
-        nodes += _axis(joint, title, float(radius), half * radius * joint.direction, size)
+        hung = Hung("axes", "joint", joint.parent, name=f"{title} {joint.name}")
+        way = radius * joint.direction
+        end = joint.point + half * way
+        head = cone(0.15 * radius, 0.5 * radius).placed(end, joint.direction)
+        nodes += [
+            Polyline(hung, np.array([joint.point - half * way, end]), 0.0025 * size),
+            Triangles(hung, *head),
+            Label(hung, end + way, title),
+        ]
     return nodes
-
-
-def _axis(
-    joint: JointGeometry,
-    title: str,
-    radius: float,
-    half: Array,
-    size: float,
-) -> list[Node]:
-    end = joint.point + half
-    hung = Hung("axes", "joint", joint.parent, name=f"{title} {joint.name}")
-    head = cone(0.15 * radius, 0.5 * radius).placed(end, joint.direction)
-    words = Label(hung, end + radius * joint.direction, title)
-    line = Polyline(hung, np.array([joint.point - half, end]), 0.0025 * size)
-    return [line, Triangles(hung, *head), words]
 
 
 def label_nodes(arm: ArmGeometry, radii: Array) -> list[Node]:

@@ -6,16 +6,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 
-from ....errors import InputError, safe_repr
+from ....errors import InputError, join_names, safe_repr
 from ....groups.arrays import Array
 from ....model.chain_data import ScrewKind
 from ....model.coordinates import coordinates
 from ...scene import Slider
+from ...shapes import transformed
 
 FrameKind = Literal["end", "tip", "link"]
 
@@ -123,7 +124,7 @@ class ArmGeometry:
         T = self.poses(q)
         held = [(bone.link, point) for bone in self.bones for point in (bone.start, bone.end)]
         held += [(frame.link, frame.pose[:3, 3]) for frame in self.frames]
-        return np.array([T[link, :3, :3] @ point + T[link, :3, 3] for link, point in held])
+        return np.array([transformed(point, T[link]) for link, point in held])
 
 
 def opening_q(sliders: tuple[Slider, ...], q: Any = None) -> Array:
@@ -148,3 +149,18 @@ def _opening(lower: float, upper: float) -> float:
     if math.isfinite(lower) and math.isfinite(upper):
         return 0.5 * (lower + upper)
     return lower if math.isfinite(lower) else upper
+
+
+def beyond(sliders: tuple[Slider, ...], reached: tuple[Slider, ...]) -> str:
+    """Names of sliders that reach further than before; "" where none does."""
+    return join_names([new.name for old, new in zip(sliders, reached, strict=True) if new != old])
+
+
+def widened(sliders: tuple[Slider, ...], q: Array) -> tuple[Slider, ...]:
+    """Sliders that reach all configurations (N, m)."""
+    low = q.min(axis=0, initial=math.inf)
+    high = q.max(axis=0, initial=-math.inf)
+    return tuple(
+        replace(slider, lower=min(slider.lower, least), upper=max(slider.upper, most))
+        for slider, least, most in zip(sliders, low.tolist(), high.tolist(), strict=True)
+    )

@@ -9,9 +9,8 @@ import numpy as np
 from ....analysis.amounts import joint_unit
 from ....groups import se3
 from ....groups.arrays import Array
-from ....model.chain import Chain
 from ....model.chain_data import ScrewKind
-from ....model.joint import FREE, MOVING, Joint
+from ....model.joint import MOVING, Joint
 from ....model.robot import Robot
 from ...scene import Slider
 from .geometry import ArmGeometry, Bone, FrameKind, JointGeometry, LinkFrame
@@ -84,12 +83,3 @@ def _frames(
     kinds.update(dict.fromkeys(tips, "tip"))
     kinds.update(dict.fromkeys([robot.root, *tips[:1]], "end"))
     return tuple(LinkFrame(numbers[link], np.eye(4), link, kind) for link, kind in kinds.items())
-
-
-def chain_to(robot: Robot, tip: str) -> Chain:
-    """Chain to a tip from the root, or from the last link above it that floats or glides freely."""
-    above = {joint.child: joint for joint in robot.joints}
-    base = tip
-    while base in above and above[base].kind not in FREE:
-        base = above[base].parent
-    return robot.chain(base=base, tip=tip)

@@ -9,11 +9,11 @@ from ...nodes import Cloud, Hung
 SEED = 0
 
 
-def reach_cloud(chain: Chain, base: int | None, count: int, size: float) -> Cloud:
+def reach_cloud(chain: Chain, count: int, size: float) -> Cloud:
     """Positions of the tip at configurations drawn uniformly within the limits, with Yoshikawa's
-    measure of its translation; base is the number of the link that the chain begins at.
+    measure of its translation; the chain begins at the arm's root.
     """
     q = chain.random(SEED, size=count)
     values = manipulability(chain, q).translation.yoshikawa
-    hung = Hung("cloud", "first", base, name=f"points that {chain.tip} reaches")
+    hung = Hung("cloud", "first", name=f"points that {chain.tip} reaches")
     return Cloud(hung, chain.fk(q)[:, :3, 3], 0.006 * size, values)

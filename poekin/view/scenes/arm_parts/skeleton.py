@@ -9,8 +9,19 @@ from functools import cache
 import numpy as np
 
 from ....groups.arrays import Array
-from ...nodes import Hung, Layer, Node, Triangles
-from ...shapes import Surface, arc_arrow, box, capsule, cylinder, double_arrow, helix, merged
+from ....model.chain_data import ScrewKind
+from ...nodes import Hung, Layer, Triangles
+from ...shapes import (
+    Surface,
+    arc_arrow,
+    box,
+    capsule,
+    cylinder,
+    double_arrow,
+    helix,
+    merged,
+    transformed,
+)
 from .geometry import ArmGeometry, JointGeometry
 
 LARGEST = 0.04
@@ -30,7 +41,7 @@ def glyph_radii(arm: ArmGeometry, q: Array, size: float) -> Array:
     T = arm.poses(q)
     if not arm.joints:
         return np.zeros(0)
-    places = np.array([T[j.parent, :3, :3] @ j.point + T[j.parent, :3, 3] for j in arm.joints])
+    places = np.array([transformed(joint.point, T[joint.parent]) for joint in arm.joints])
     room = np.array([_room(place, places, COINCIDENT * size) for place in places])
     for k, joint in enumerate(arm.joints):
         if joint.kind == "prismatic":  # a slide is no longer than a few times its way
@@ -45,15 +56,14 @@ def _room(place: Array, places: Array, coincident: float) -> float:
     return 0.35 * float(gaps[gaps > coincident].min(initial=np.inf))
 
 
-def skeleton_nodes(arm: ArmGeometry, radii: Array, size: float) -> list[Node]:
+def skeleton_nodes(arm: ArmGeometry, radii: Array, size: float) -> list[Triangles]:
     """Bones, one node a link, and glyphs, one a joint."""
     thickness = dict.fromkeys(range(len(arm.links)), BONE * SMALLEST * size)
+    glyphs = []
     for joint, radius in zip(arm.joints, radii.tolist(), strict=True):
+        glyphs.append(_glyph_node(joint, radius))
         for link in (joint.parent, joint.child):
             thickness[link] = max(thickness[link], BONE * radius)
-    glyphs = [
-        _glyph_node(joint, radius) for joint, radius in zip(arm.joints, radii.tolist(), strict=True)
-    ]
     return [*bone_nodes(arm, thickness, size, "skeleton"), *glyphs]
 
 
@@ -95,29 +105,23 @@ def _rail(joint: JointGeometry, size: float) -> tuple[Array, Array]:
 
 def _glyph_node(joint: JointGeometry, radius: float) -> Triangles:
     """Glyph of a joint, on the link that carries it; a slide is on the link that it moves."""
+    glyph = _glyph(joint.kind, joint.pitch < 0).scaled(radius)
     if joint.kind == "prismatic":
-        hung = Hung("skeleton", "joint", joint.child, name=joint.name)
-        return Triangles(
-            hung, *_slide().scaled(radius).placed(joint.child_point, joint.child_direction)
-        )
-    hung = Hung("skeleton", "joint", joint.parent, name=joint.name)
-    glyph = _hinge() if joint.kind == "revolute" else _thread(joint.pitch < 0)
-    return Triangles(hung, *glyph.scaled(radius).placed(joint.point, joint.direction))
+        link = joint.child
+        placed = glyph.placed(joint.child_point, joint.child_direction)
+    else:
+        link = joint.parent
+        placed = glyph.placed(joint.point, joint.direction)
+    return Triangles(Hung("skeleton", "joint", link, name=joint.name), *placed)
 
 
 @cache
-def _hinge() -> Surface:
-    """Revolute: a cylinder along the axis, and an arc that turns the positive way."""
-    return merged(cylinder(0.5, 1.4), arc_arrow(1.0, 0.08))
-
-
-@cache
-def _thread(left_handed: bool) -> Surface:
-    """Helical: a cylinder in a helix, right-handed where the pitch is positive."""
+def _glyph(kind: ScrewKind, left_handed: bool) -> Surface:
+    """Revolute: a cylinder and an arc that turns the positive way; prismatic: a box with an arrow both
+    ways; helical: a cylinder in a helix, right-handed where the pitch is positive.
+    """
+    if kind == "revolute":
+        return merged(cylinder(0.5, 1.4), arc_arrow(1.0, 0.08))
+    if kind == "prismatic":
+        return merged(box([1.2, 1.2, 1.6]), double_arrow(4.0, 0.15, 0.4, 0.7))
     return merged(cylinder(0.5, 2.4), helix(0.75, 0.12, -2.0 if left_handed else 2.0))
-
-
-@cache
-def _slide() -> Surface:
-    """Prismatic: a box with an arrow both ways along the axis."""
-    return merged(box([1.2, 1.2, 1.6]), double_arrow(4.0, 0.15, 0.4, 0.7))

@@ -10,22 +10,24 @@ exponentials again, and so a chain, which the page moves as any other.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
-from ....analysis.axis_lines import direction, place, prismatic
+from ....analysis.axis_lines import Marks, direction, place, prismatic, uncoupled_at_zero
 from ....analysis.compare.alignment.lines import lines
 from ....analysis.compare.comparison import NOISE, Comparison
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ....model.chain import Chain
+from ..arm_parts.of_chain import chain_geometry
 
 FACTOR = "exaggeration"
 """Name of the coordinate k."""
 
 VISIBLE = 0.1
-"""Share of the arm's size that the largest difference is drawn as."""
+"""Share of a size that what is enlarged is drawn as at most."""
 
 STEPS = (100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0)
 """Factors to choose from."""
@@ -42,8 +44,9 @@ class Exaggerated(NamedTuple):
         Numbers of b's n + 1 bodies, and last of the body that carries the tool.
     axes : tuple of int
         Numbers of the n bodies that the axes are drawn on.
-    moves : (n, 6) ndarray
-        Twists ξ_i in b's base, where all of b's joints are at 0; rad and m.
+    moves : (n + 1, 6) ndarray
+        Twists ξ_i of the axes and, last, of the tool, in b's base, where all of b's joints are at
+        0; rad and m.
     factor : float
         The k at which the largest difference can be seen; 1 where nothing differs.
     """
@@ -70,65 +73,51 @@ def compared_rows(found: Comparison) -> list[int]:
 
 def exaggerated(found: Comparison) -> Exaggerated:
     """Model b of a comparison, with the coordinate k where an axis differs."""
+    a = uncoupled_at_zero(found.a)
     b = found.b
-    n = len(b.screws)
+    moves = np.zeros((len(b.screws) + 1, 6))
     if not found.joints:
-        return Exaggerated(b, (*range(n + 1), n), tuple(range(n)), np.zeros((n, 6)), 1.0)
-    carriers = _carriers(found)
-    rows = compared_rows(found)
-    ours = lines(found.a)
-    moves = np.zeros((n + 1, 6))
+        return _assembled(b, moves, 1.0)
+    # poses in a's base of what b's joints carry at a's zeros: base e^{B_1 z_1} ... e^{B_i z_i}
+    base = np.eye(4) if found.base is None else found.base
+    carriers = base @ chain_geometry(b).poses(zeros_and_directions(found)[0])
+    ours = lines(a)
     sizes = [0.0]
-    for i, joint in enumerate(found.joints):
+    for i, (k, joint) in enumerate(zip(compared_rows(found), found.joints, strict=True)):
         if joint.axis_differs:
-            theirs = se3.adjoint(carriers[i]) @ b.screws[i]
-            move = _motion(found.a, b, (rows[i], i), theirs, ours.places[rows[i]] + ours.centre)
-            sizes.append(_size(move, ours.centre, found.a.reach))
+            axes = np.stack([a.screws[k], se3.adjoint(carriers[i]) @ b.screws[i]])
+            slides = np.array([prismatic(a)[k], prismatic(b)[i]])
+            move = _motion(axes, slides, ours.places[k] + ours.centre)
+            sizes.append(_size(move, ours.centre, a.reach))
             moves[i] = se3.adjoint(se3.inverse(carriers[i])) @ move
-    factor = _factor(max(sizes), found.a.reach)
-    tool = se3.log(carriers[n] @ b.home @ se3.inverse(found.a.home))
-    if factor > 1 and factor * _size(tool, ours.centre, found.a.reach) < found.a.reach:
-        moves[n] = se3.adjoint(se3.inverse(carriers[n])) @ tool
+    factor = 1.0
+    if max(sizes) > NOISE:
+        factor = visible_factor(max(sizes), a.reach)
+    tool = se3.log(carriers[-1] @ b.home @ se3.inverse(a.home))
+    if factor * _size(tool, ours.centre, a.reach) < a.reach:
+        moves[-1] = se3.adjoint(se3.inverse(carriers[-1])) @ tool
     return _assembled(b, moves, factor)
 
 
-def _carriers(found: Comparison) -> list[Array]:
-    """Poses in a's base of what b's joints carry at a's zeros: base e^{B_1 z_1} ... e^{B_i z_i}."""
-    carriers = [np.eye(4) if found.base is None else found.base]
-    zeros, _ = zeros_and_directions(found)
-    for screw, zero in zip(found.b.screws, zeros, strict=True):
-        carriers.append(carriers[-1] @ se3.exp(screw * zero))
-    return carriers
+def visible_factor(largest: float, size: float, steps: Iterable[float] = STEPS) -> float:
+    """The first of some factors by which a length stays within `VISIBLE` of a size; else 1."""
+    return next((k for k in steps if k * largest <= VISIBLE * size), 1.0)
 
 
-def _motion(a: Chain, b: Chain, numbers: tuple[int, int], theirs: Array, point: Array) -> Array:
-    """Twist ξ that takes a's axis to b's, `theirs` in a's base, by the shortest way at a point of
-    a's.
+def _motion(axes: Array, slides: Marks, point: Array) -> Array:
+    """Twist ξ that takes the first of two axes (2, 6) to the other by the shortest way at a point of
+    the first; where one is that of a slide, its direction alone.
     """
-    i, j = numbers
-    slides = np.array([prismatic(a)[i], prismatic(b)[j]])
-    own, other = direction(np.stack([a.screws[i], theirs]), slides)
+    own, other = direction(axes, slides)
     if own @ other < 0:
         other = -other
-    turn = np.eye(4)
-    turn[:3, :3] = _turn(own, other)
-    moved = np.eye(4)
+    across = so3.hat(np.cross(own, other))
+    R = np.eye(3) + across + across @ across / (1 + own @ other)
+    p = point - R @ point
     if not slides.any():
-        without_pitch = theirs - np.r_[0.0, 0.0, 0.0, theirs[:3] * b.pitches[j]]
-        gap = place(without_pitch) - point
-        moved[:3, 3] = gap - other * (other @ gap)
-    there = np.eye(4)
-    there[:3, 3] = point
-    return se3.log(moved @ there @ turn @ se3.inverse(there))
-
-
-def _turn(own: Array, other: Array) -> Array:
-    """The smallest rotation that takes one unit vector to another that is less than π away."""
-    across = np.cross(own, other)
-    sine = float(np.linalg.norm(across))
-    if sine == 0:
-        return np.eye(3)
-    return so3.exp(across / sine * np.arctan2(sine, own @ other))
+        gap = place(axes[1]) - point
+        p = p + gap - other * (other @ gap)
+    return se3.log(se3.pose(R, p))
 
 
 def _size(move: Array, centre: Array, reach: float) -> float:
@@ -139,42 +128,26 @@ def _size(move: Array, centre: Array, reach: float) -> float:
     return float(np.linalg.norm(shift) + 0.1 * reach * np.linalg.norm(move[:3]))
 
 
-def _factor(largest: float, reach: float) -> float:
-    """The largest factor of `STEPS` by which a difference stays within `VISIBLE`."""
-    if largest <= NOISE:
-        return 1.0
-    return next((k for k in STEPS if k * largest <= VISIBLE * reach), 1.0)
-
-
 def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
     """The chain of b's joints, each between the motion of its axis there and back."""
     n = len(b.screws)
     if factor == 1:
-        return Exaggerated(b, (*range(n + 1), n), tuple(range(n)), np.zeros((n, 6)), 1.0)
-    screws: list[Array] = []
-    rows: list[Array] = []
-    offset: list[float] = []
-    names: list[str] = []
+        return Exaggerated(b, (*range(n + 1), n), tuple(range(n)), np.zeros((n + 1, 6)), 1.0)
+    joints: list[tuple[Array, Array, float, str]] = []
     bodies = [0]
     axes = []
-
-    def add(screw: Array, row: Array, constant: float, name: str) -> None:
-        screws.append(screw)
-        rows.append(row)
-        offset.append(constant)
-        names.append(name)
-
     for i, move in enumerate(moves):
-        size, unit = _unit(move)
+        screw, size = _unit(move)
         way = np.r_[np.zeros(n), size]
         if size:
-            add(unit, way, -size, f"{FACTOR} {i + 1}")
-        axes.append(len(screws))
+            joints.append((screw, way, -size, f"{FACTOR} {i + 1}"))
+        axes.append(len(joints))
         if i < n:
-            add(b.screws[i], np.eye(n + 1)[i], 0.0, b.joint_names[i])
+            joints.append((b.screws[i], np.eye(n + 1)[i], 0.0, b.joint_names[i]))
             if size:
-                add(unit, -way, size, f"{FACTOR} {i + 1} back")
-        bodies.append(len(screws))
+                joints.append((screw, -way, size, f"{FACTOR} {i + 1} back"))
+        bodies.append(len(joints))
+    screws, rows, offset, names = zip(*joints, strict=True)
     chain = Chain(
         screws,
         b.home,
@@ -187,15 +160,11 @@ def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
         base=b.base,
         tip=b.tip,
     )
-    return Exaggerated(chain, tuple(bodies), tuple(axes[:n]), moves[:n], factor)
+    return Exaggerated(chain, tuple(bodies), tuple(axes[:n]), moves, factor)
 
 
-def _unit(move: Array) -> tuple[float, Array]:
-    """Size and unit screw of a motion; a size of 0 where there is none."""
-    turned = float(np.linalg.norm(move[:3]))
-    if turned > NOISE:
-        return turned, move / turned
-    shifted = float(np.linalg.norm(move[3:]))
-    if shifted <= NOISE:
-        return 0.0, move
-    return shifted, np.r_[0.0, 0.0, 0.0, move[3:] / shifted]
+def _unit(move: Array) -> tuple[Array, float]:
+    """Unit screw and size of a motion, 0 where it is rounding."""
+    turn = move[:3] * (np.linalg.norm(move[:3]) > NOISE)
+    screw, size = se3.axis_angle(np.r_[turn, move[3:]])
+    return screw, float(size * (size > NOISE))

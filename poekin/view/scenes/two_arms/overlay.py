@@ -10,8 +10,9 @@ import numpy as np
 from ....groups import se3
 from ....groups.arrays import Array
 from ...kinematics import page_tips
-from ...nodes import Hung, Label, Layer, Node, Polyline, Role, Triangles
+from ...nodes import Hung, Label, Node
 from ...scene import SceneArm
+from ...shapes import transformed
 from ..arm import scene_arm
 from ..arm_parts.axes import axis_nodes, frame_nodes
 from ..arm_parts.geometry import ArmGeometry
@@ -32,7 +33,7 @@ def second_arm(second: Exaggerated, base: Array, factors: Array, shift: Array) -
     chain = second.chain
     geometry = chain_geometry(chain)
     tips = page_tips(chain, ())
-    arm = scene_arm(chain, geometry, tips, np.zeros(chain.dof))
+    arm = scene_arm(chain, geometry, tips, geometry.sliders)
     if second.factor > 1:
         factors = np.vstack([factors, np.zeros(factors.shape[1])])
         shift = np.append(shift, second.factor)
@@ -66,7 +67,7 @@ def second_nodes(
         only = replace(arm, joints=(joint,))
         for node in axis_nodes(only, radii[k : k + 1], size):
             if not isinstance(node, Label):
-                drawn.append(_hung(node, "differences", "differs", differing[joint.name]))
+                drawn.append(_differing(node, differing[joint.name]))
         hung = Hung("differences", "differs", joint.parent, 1, differing[joint.name])
         drawn.append(Label(hung, joint.point + 2.5 * radii[k] * joint.direction, joint.name))
     return drawn
@@ -78,22 +79,16 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
     back = se3.exp(-second.moves)
     joints = []
     for k, joint in enumerate(geometry.joints):
-        R = back[k, :3, :3]
         moved = replace(
             joint,
             parent=second.axes[k],
             child=bodies[k + 1],
-            point=R @ joint.point + back[k, :3, 3],
-            direction=R @ joint.direction,
+            point=transformed(joint.point, back[k]),
+            direction=back[k, :3, :3] @ joint.direction,
         )
         joints.append(moved)
-    last = len(geometry.joints)
-    frames = [
-        replace(
-            frame, link=bodies[-1 if frame.link == last and frame.kind == "end" else frame.link]
-        )
-        for frame in geometry.frames
-    ]
+    frames = [replace(frame, link=bodies[frame.link]) for frame in geometry.frames]
+    frames[-1] = replace(frames[-1], link=bodies[-1], pose=back[-1] @ frames[-1].pose)
     names = [""] * (bodies[-1] + 1)
     for k, name in enumerate(geometry.links):
         names[bodies[k]] = name
@@ -108,22 +103,15 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
 
 def _of_second(node: Node, differing: dict[str, str]) -> Node:
     """A node of the first arm as one of the second."""
-    name = node.hung.name
-    if node.hung.layer == "skeleton" and node.hung.role == "joint" and name in differing:
-        return _hung(node, "differences", "differs", differing[name])
-    if node.hung.layer == "skeleton":
-        return _hung(node, "skeleton", "second", name, FADED)
-    return _hung(node, node.hung.layer, node.hung.role, name)
+    hung = node.hung
+    if hung.layer != "skeleton":
+        return replace(node, hung=replace(hung, arm=1))
+    if hung.role == "joint" and hung.name in differing:
+        return _differing(node, differing[hung.name])
+    return replace(node, hung=replace(hung, arm=1, role="second", opacity=FADED))
 
 
-def _hung(node: Node, layer: Layer, role: Role, name: str, opacity: float = 1.0) -> Node:
-    hung = replace(node.hung, arm=1, layer=layer, role=role, name=name, opacity=opacity)
+def _differing(node: Node, words: str) -> Node:
+    """A node in the layer of differences, with the sentence on its joint."""
+    hung = replace(node.hung, arm=1, layer="differences", role="differs", name=words)
     return replace(node, hung=hung)
-
-
-def moved_node(node: Triangles | Polyline, pose: Array, hung: Hung) -> Triangles | Polyline:
-    """A node with its points moved by a pose, hung elsewhere."""
-    R = pose[:3, :3]
-    if isinstance(node, Triangles):
-        return Triangles(hung, node.vertices @ R.T + pose[:3, 3], node.faces)
-    return Polyline(hung, node.points @ R.T + pose[:3, 3], node.width)

@@ -10,12 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
+from poekin.view.nodes import Label
+from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.two_arms.exaggerated import (
     FACTOR,
     compared_rows,
     exaggerated,
     zeros_and_directions,
 )
+from poekin.view.scenes.two_arms.overlay import second_nodes
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 SIZES = st.floats(-1, 1)
@@ -133,3 +136,34 @@ def test_a_longer_link_takes_the_tool_along():
     np.testing.assert_allclose(made.chain.fk([*y, 0.0]), ARM.fk(q), atol=1e-9)
     far = made.chain.fk([*y, 10.0])[:3, 3] - ARM.fk(q)[:3, 3]
     assert np.linalg.norm(far) == pytest.approx(0.03, rel=1e-6)
+
+
+def test_an_arm_of_sums_with_an_offset_is_exaggerated_as_one_without():
+    coupling = np.eye(7) - np.eye(7, k=-1)
+    names = [f"c{k}" for k in range(7)]
+    made = []
+    for offset in (np.zeros(7), np.linspace(-0.3, 0.3, 7)):
+        arm = ARM.replace(coupling=coupling, offset=offset, q_names=names)
+        b = moved(3, [0, 0, 0, 0, 0, 0.003])
+        found = pk.compare(arm, b.replace(coupling=coupling, offset=offset, q_names=names))
+        made.append(exaggerated(found))
+        q = arm.random(9)
+        np.testing.assert_allclose(made[-1].chain.fk([*own(found, q), 0.0]), arm.fk(q), atol=1e-9)
+    assert made[0].factor == made[1].factor == 20.0
+
+
+def test_the_frame_of_a_tool_that_is_aligned_is_drawn_where_model_b_has_it():
+    b = moved(3, [0, 0, 0, 0, 0, 0.003]).retooled(pk.se3.exp([0, 0, 0, 0, 0, 0.004]))
+    found = pk.compare(ARM, b)
+    made = exaggerated(found)
+    nodes = second_nodes(made, chain_geometry(found.b), {}, {ARM.tip}, 1.0)
+    (label,) = [node for node in nodes if isinstance(node, Label)]
+    plain = second_nodes(
+        exaggerated(pk.compare(ARM, ARM)), chain_geometry(found.b), {}, {ARM.tip}, 1.0
+    )
+    (at_rest,) = [node for node in plain if isinstance(node, Label)]
+    q = ARM.random(6)
+    drawn = chain_geometry(made.chain).poses(np.append(q, 1.0))[label.hung.link]
+    true = chain_geometry(found.b).poses(q)[-1]
+    place = true @ [*at_rest.point, 1.0]
+    np.testing.assert_allclose(drawn @ [*label.point, 1.0], place, atol=1e-12)
