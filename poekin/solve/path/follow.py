@@ -21,6 +21,7 @@ from ..ik.task import TaskName, TaskNames, targets
 from ..joint_units import bounds
 from ..per_coordinate import per_coordinate
 from .follower import Follower
+from .path_interval import limits_of_joints
 from .path_result import PathResult
 
 
@@ -157,15 +158,8 @@ def follow(  # noqa: PLR0913 - options by keyword
         speed=limit_v,
         acceleration=limit_a,
         lock=dict(lock or {}),
-        joint_limits=_joint_limits(given, limits),
+        joint_limits=limits_of_joints(given) if limits else None,
     )
-
-
-def _joint_limits(chain: Chain, limits: bool) -> Array | None:
-    """Limits (n, 2) of the joints' own values; None where there are none or they do not count."""
-    if limits and np.isfinite(chain.joint_limits).any():
-        return chain.joint_limits
-    return None
 
 
 def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array) -> Solution:

@@ -10,6 +10,7 @@ from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ..ik.solution import SOLVED, Solution
 from ..ik.task import make_task
+from .path_interval import limits_of_joints
 from .path_result import PathResult
 
 
@@ -66,4 +67,5 @@ def joint_path(chain: Chain, q: Array, times: Array | None = None) -> PathResult
         times=times,
         speed=None if times is None else chain.velocity_limits,
         acceleration=None,
+        joint_limits=limits_of_joints(chain),
     )

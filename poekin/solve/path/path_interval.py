@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...groups.arrays import Array
+from ...model.chain import Chain
 from ..ik.diagnosis import AT_LIMIT
 
 
@@ -72,3 +73,8 @@ def intervals_at_limits(x: Array, limits: Array, names: Sequence[str]) -> tuple[
             off = np.abs(values - bound)
             found += intervals(off <= AT_LIMIT, values, -off, bound, name)
     return tuple(sorted(found))
+
+
+def limits_of_joints(chain: Chain) -> Array | None:
+    """Limits (n, 2) of the joints' own values, rad or m; None where there are none."""
+    return chain.joint_limits if np.isfinite(chain.joint_limits).any() else None

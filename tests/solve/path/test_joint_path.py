@@ -36,3 +36,13 @@ def test_without_times_there_are_no_rates():
 def test_what_is_no_list_of_configurations_is_refused(q):
     with pytest.raises(ShapeError, match="7"):
         joint_path(ARM, q)
+
+
+def test_joints_at_limits_of_their_own_are_said():
+    arm = pk.load("ur5").chain()
+    coupling = np.eye(6) - np.eye(6, k=-1)
+    own = np.tile([-1.0, 1.0], (6, 1))
+    coupled = arm.replace(coupling=coupling, q_names=list("abcdef"), limits=None, joint_limits=own)
+    path = joint_path(coupled, [np.zeros(6), [0.0, 1.0, 1.0, 1.0, 1.0, 1.0]])
+    (found,) = path.joints_at_limits
+    assert (found.name, found.first, found.bound) == (arm.joint_names[1], 1, 1.0)
