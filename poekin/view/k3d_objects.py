@@ -14,10 +14,13 @@ import numpy as np
 
 from ..errors import MissingExtra
 from .nodes import Cloud, Hung, Label, Node, Polyline, Triangles
-from .palette import color
+from .palette import CLOUD, color
 
 LEVEL = 6
 """Level of compression: a page of meshes is made in half the time of level 9, and 1 % larger."""
+
+LIGHT = 1.4
+"""Brightness of the lights, by which white meshes are shaded still; 1.6 makes them white all over."""
 
 Drawable = Triangles | Polyline | Cloud
 
@@ -66,7 +69,7 @@ def snapshot(objects: Sequence[DrawnObject], script: str) -> str:
         camera_fov=35.0,
         axes_helper=0.0,
         colorbar_object_id=0,
-        lighting=1.6,
+        lighting=LIGHT,
     )
     for drawn in objects:
         made = _made(k3d, drawn)
@@ -93,7 +96,9 @@ def _made(k3d: Any, drawn: DrawnObject) -> Any:
     look = {"color": color(drawn.hung), "opacity": drawn.hung.opacity}
     if isinstance(first, Triangles):
         vertices, faces = _joined((n.vertices, n.faces) for n in drawn.nodes)  # type: ignore[union-attr]
-        return k3d.mesh(vertices, faces, side="double", flat_shading=False, **look)
+        flat = first.hung.layer == "meshes"  # smooth shading would round their sharp edges off
+        shading = {"side": "double", "flat_shading": flat, "roughness": 0.7}
+        return k3d.mesh(vertices, faces, **shading, **look)
     if isinstance(first, Polyline):
         vertices, pairs = _joined((n.points, _pairs(len(n.points))) for n in drawn.nodes)  # type: ignore[union-attr]
         shape = {"indices_type": "segment", "width": first.width, "shader": "mesh"}
@@ -105,10 +110,15 @@ def _made(k3d: Any, drawn: DrawnObject) -> Any:
     return k3d.points(
         points,
         attribute=np.asarray(first.values, np.float32),
-        color_map=k3d.matplotlib_color_maps.viridis,
+        color_map=[part for x, value in enumerate(CLOUD) for part in (x, *_rgb(value))],
         opacity=drawn.hung.opacity,
         **shape,
     )
+
+
+def _rgb(value: int) -> tuple[float, float, float]:
+    """Red, green and blue of 0xRRGGBB, from 0 to 1."""
+    return (value >> 16) / 255, (value >> 8 & 255) / 255, (value & 255) / 255
 
 
 def _pairs(count: int) -> np.ndarray:

@@ -32,6 +32,7 @@ from .arm_parts.skeleton import glyph_radii, skeleton_nodes
 
 Model = Robot | Chain
 
+CLOUD = "Cloud: {} points that {} reaches, blue to orange by the manipulability of its translation."
 POINT = 1e-6
 """Size up to which an arm is a point, m."""
 
@@ -94,18 +95,20 @@ def arm_scene(
         bodies, left_out = mesh_nodes(model)
     size = arm_size(arm, opening, bodies)
     nodes = [*bodies, *arm_nodes(arm, opening, size, bool(bodies))]
+    shown: set[Layer] = {"axes", "frames", "meshes" if bodies else "skeleton"}
     if bodies:
         nodes += stand_ins(arm, left_out, bodies, size)
     moved = [chain for chain in _chains(model, tips[:1]) if chain.dof]
     if moved:
         nodes += jacobian_nodes(max(len(tip.coordinates) for tip in tips), size)
     if cloud:
+        shown.add("cloud")
         nodes += [reach_cloud(chain, arm.links.index(chain.base), cloud, size) for chain in moved]
     words = [*_model_words(model, arm), *_beyond(arm, opening), *left_out_words(left_out)]
+    words += [CLOUD.format(cloud, quote(chain.tip)) for chain in moved if cloud]
     values = {slider.name: x for slider, x in zip(arm.sliders, opening, strict=True)}
     for chain in moved:
         words += singular_words(chain, np.array([values[name] for name in chain.q_names]))
-    shown: set[Layer] = {"axes", "frames", "meshes" if bodies else "skeleton"}
     return Scene(
         title=arm.name,
         words=tuple(words),
