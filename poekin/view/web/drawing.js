@@ -12,6 +12,7 @@ const ARROW_V = 0.35; // length of an arrow of 1 m/rad, m, and of half an axis
 const ARROW_W = 0.2; // of the scene: length of an arrow of 1 rad/rad
 const MOST = 0.25; // of the scene: longest half axis of an ellipsoid
 const SPIN = 0.25; // of an arrow: half axis of the angular ellipsoid, which is inside the linear one as a rule
+const BAR = 12; // pixels above the buttons
 const CLEAR = 0.3; // opacity of meshes that are looked through
 
 // Lengths at which velocities of a tip are drawn: m per m/s at one rad/s or m/s, and per rad/s.
@@ -175,18 +176,19 @@ export class Drawing {
         this.K.render();
     }
 
-    // A camera that sees all that is shown, from the front, a little from above.
+    // A camera that sees all that is shown below the buttons, from the front, a little from above.
     fit() {
         const { THREE } = this.K.Provider;
-        const box = this.bounds(THREE, true);
-        const sphere = box.getBoundingSphere(new THREE.Sphere());
-        const { camera } = this.K.getWorld();
-        const half = (camera.fov * Math.PI) / 360;
-        const across = Math.atan(Math.tan(half) * Math.min(camera.aspect, 1));
-        const distance = sphere.radius / Math.sin(across);
-        const way = unitVector([1, -1.25, 0.65]);
-        const { x, y, z } = sphere.center;
-        this.K.setCamera([x + way[0] * distance, y + way[1] * distance, z + way[2] * distance, x, y, z, 0, 0, 1]);
+        const { center, radius } = this.bounds(THREE, true).getBoundingSphere(new THREE.Sphere());
+        const { camera, height } = this.K.getWorld();
+        const bar = (document.getElementById("poekin-toolbar")?.offsetHeight ?? 0) + BAR;
+        const half = Math.tan((camera.fov * Math.PI) / 360);
+        const distance = radius / Math.sin(Math.atan(half * Math.min(camera.aspect, 1 - bar / height)));
+        const way = new THREE.Vector3(...unitVector([1, -1.25, 0.65]));
+        const up = new THREE.Vector3(0, 0, 1).addScaledVector(way, -way.z).normalize();
+        const at = center.addScaledVector(up, (distance * half * bar) / height);
+        const eye = way.multiplyScalar(distance).add(at);
+        this.K.setCamera([...eye.toArray(), ...at.toArray(), 0, 0, 1]);
         this.fitted = camera.position.clone();
         this.K.render();
     }
