@@ -101,7 +101,7 @@ def test_the_tool_follows_the_mouse_in_the_plane_of_the_screen(arm, free):
     assert now[2] == pytest.approx(deep, abs=2 * REACHED)
     turned = np.abs(pose(arm)[:3, :3] - before[:3, :3]).max()
     assert (turned > 1e-3) if free else (turned <= 2 * REACHED)
-    assert arm.ask(CAMERA) == camera
+    assert arm.ask(CAMERA) == pytest.approx(camera, abs=1e-12)  # its controls round at each frame
     assert arm.ask("poekin.target") is None
 
 
@@ -111,7 +111,7 @@ def test_a_press_beside_the_handle_turns_the_camera_and_leaves_the_arm(arm):
     x, y, _ = arm.ask(ON_SCREEN)
     pull(arm, (x + 60, y + 60), (40, 30))
     assert arm.ask("[...poekin.q]") == Q
-    assert arm.ask(CAMERA) != camera
+    assert arm.ask(CAMERA) != pytest.approx(camera, abs=1e-3)
 
 
 def test_a_finger_takes_the_tool_from_farther_off(arm):
