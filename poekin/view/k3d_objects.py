@@ -14,11 +14,14 @@ import numpy as np
 
 from ..errors import MissingExtra
 from .nodes import Cloud, Hung, Label, Node, Polyline, Triangles
-from .palette import color
+from .palette import CLOUD, color
 from .shapes import merged
 
 LEVEL = 6
 """Level of compression: a page of meshes is made in half the time of level 9, and 1 % larger."""
+
+LIGHT = 1.4
+"""Brightness of the lights, by which white meshes are shaded still; 1.6 makes them white all over."""
 
 Drawable = Triangles | Polyline | Cloud
 
@@ -68,7 +71,7 @@ def snapshot(objects: Sequence[DrawnObject], script: str) -> str:
         camera_fov=35.0,
         axes_helper=0.0,
         colorbar_object_id=0,
-        lighting=1.6,
+        lighting=LIGHT,
     )
     for drawn in objects:
         made = _made(k3d, drawn)
@@ -93,7 +96,8 @@ def _made(k3d: Any, drawn: DrawnObject) -> Any:
     look = {"color": color(drawn.hung), "opacity": drawn.hung.opacity}
     if isinstance(first, Triangles):
         vertices, faces = merged(*((n.vertices, n.faces) for n in drawn.nodes))  # type: ignore[union-attr]
-        shape = {"side": "double", "flat_shading": False}
+        flat = first.hung.layer == "meshes"  # smooth shading would round their sharp edges off
+        shape = {"side": "double", "flat_shading": flat, "roughness": 0.7}
         return k3d.mesh(vertices.astype(np.float32), faces.astype(np.uint32), **shape, **look)
     if isinstance(first, Polyline):
         vertices, pairs = merged(*((n.points, _pairs(len(n.points))) for n in drawn.nodes))  # type: ignore[union-attr]
@@ -106,10 +110,15 @@ def _made(k3d: Any, drawn: DrawnObject) -> Any:
     return k3d.points(
         points,
         attribute=np.asarray(first.values, np.float32),
-        color_map=k3d.matplotlib_color_maps.viridis,
+        color_map=[part for x, value in enumerate(CLOUD) for part in (x, *_rgb(value))],
         opacity=drawn.hung.opacity,
         **shape,
     )
+
+
+def _rgb(value: int) -> tuple[float, float, float]:
+    """Red, green and blue of 0xRRGGBB, from 0 to 1."""
+    return (value >> 16) / 255, (value >> 8 & 255) / 255, (value & 255) / 255
 
 
 def _pairs(count: int) -> np.ndarray:

@@ -20,6 +20,10 @@ PALETTE: dict[Role, int] = {
 """Colours 0xRRGGBB that the colour-blind can tell apart, on light and on dark; grey for an arm."""
 
 
+CLOUD = (0x0072B2, 0xE69F00)
+"""Colours of the least and the largest value of a cloud, seen on light and on dark."""
+
+
 def color(hung: Hung) -> int:
     """Colour of a node: its own, or its role's."""
     if hung.color is not None:

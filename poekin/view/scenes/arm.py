@@ -30,6 +30,7 @@ from .arm_parts.of_robot import robot_geometry
 from .arm_parts.reach import reach_cloud
 from .arm_parts.skeleton import glyph_radii, skeleton_nodes
 
+CLOUD = "Cloud: {} points that {} reaches, blue to orange by the manipulability of its translation."
 POINT = 1e-6
 """Size up to which an arm is a point, m."""
 
@@ -92,6 +93,7 @@ def arm_scene(
         bodies, left_out = mesh_nodes(model)
     size = arm_size(arm, opening, bodies)
     nodes = [*bodies, *arm_nodes(arm, opening, size, bool(bodies))]
+    shown: set[Layer] = {"axes", "frames", "meshes" if bodies else "skeleton"}
     if bodies:
         nodes += stand_ins(arm, left_out, bodies, size)
     columns = max(len(tip.coordinates) for tip in tips)
@@ -104,11 +106,12 @@ def arm_scene(
         words.append(f"The page opens beyond the limits of {names}.")
     words += left_out_words(left_out)
     chain = tip_chain(model, tips[0].name)
+    if cloud and chain.dof:
+        shown.add("cloud")
+        nodes.append(reach_cloud(chain, cloud, size))
+        words.append(CLOUD.format(cloud, quote(chain.tip)))
     if chain.dof:
         words += singular_words(chain, opening[list(tips[0].coordinates)])
-    if cloud and chain.dof:
-        nodes.append(reach_cloud(chain, cloud, size))
-    shown: set[Layer] = {"axes", "frames", "meshes" if bodies else "skeleton"}
     return Scene(
         title=arm.name,
         words=tuple(words),

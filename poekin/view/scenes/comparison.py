@@ -19,6 +19,11 @@ from .two_arms.overlay import second_arm, second_nodes
 
 MOST_WORDS = 8
 """Sentences of the comparison that the page holds."""
+ALWAYS = 7
+"""Columns of the table that are always shown."""
+NOTHING = {"", "0 deg", "0 mm", "same", "0 0"}
+"""Cells of the other columns where the models agree."""
+LEGEND = "Grey: the first model; blue: the second; red: what differs."
 
 
 def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Scene:
@@ -64,7 +69,7 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
     size = max(scene.size, arm_size(geometry, np.zeros(n)))
     nodes = second_nodes(second, geometry, _sentences(found), set(_moved_ends(found)), size)
     lines = found.summary().splitlines()
-    words = [lines[-1], *lines[:-1]]
+    words = [lines[-1], LEGEND, *lines[:-1]]
     return replace(
         scene,
         title=title or f"Two models of one arm: {found.a.base} → {found.a.tip}",
@@ -79,9 +84,12 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
 
 
 def joint_table(found: Comparison) -> PageTable:
-    """The joints of both models side by side."""
-    rows = (tuple(map(str, joint_row(joint, found))) for joint in found.joints)
-    return PageTable("Joint by joint", HEADS, tuple(rows))
+    """The joints of both models side by side; the last columns only where they say something."""
+    rows = [tuple(map(str, joint_row(joint, found))) for joint in found.joints]
+    columns = list(zip(HEADS, *rows, strict=True))
+    told = columns[:ALWAYS] + [column for column in columns[ALWAYS:] if {*column[1:]} - NOTHING]
+    heads, *cells = zip(*told, strict=True)
+    return PageTable("Joint by joint", heads, tuple(cells))
 
 
 def _sentences(found: Comparison) -> dict[str, str]:

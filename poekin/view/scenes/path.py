@@ -24,8 +24,6 @@ ROWS = 2000
 """Configurations that the page plays: of longer paths every second one, or third, ..."""
 FRAMES = 24
 """Target poses that are drawn."""
-MOST_WORDS = 12
-"""Sentences of the report that the page holds above the rest, which its path has."""
 
 
 def path_scene(path: PathResult, robot: Robot | None = None) -> Scene:
@@ -64,7 +62,7 @@ def path_scene(path: PathResult, robot: Robot | None = None) -> Scene:
     motion = _motion(path, known, stage)
     scene = stage.with_result(
         f"Path of {path.chain.tip} in {path.chain.base}",
-        path.summary().splitlines()[:MOST_WORDS],
+        path.summary().splitlines()[:1],  # the others stand at the marks
         [*_way(path, points, stage), *frames],
         "path",
         rows=motion.q,

@@ -45,7 +45,8 @@ def target_nodes(stage: Stage, poses: Array) -> list[Node]:
 def configuration_words(chain: Chain, q: Array) -> str:
     """A configuration for reading: "12.5°, −3°, 20 mm"."""
     units: list[Unit] = ["rad" if chain.is_angle(k) else "m" for k in range(chain.dof)]
-    return ", ".join(amount(float(x), unit, 3) for x, unit in zip(q, units, strict=True))
+    rounded = np.round(q, 9) + 0.0  # what is below is the rounding of a zero
+    return ", ".join(amount(float(x), unit, 3) for x, unit in zip(rounded, units, strict=True))
 
 
 def asked_of(found: Solution | AllSolutions) -> tuple[Chain, Array]:

@@ -7,14 +7,18 @@ import { ellipsoid, product, singularDirection } from "./mathematics.js";
 
 const HIDDEN = Float64Array.of(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1);
 const UNIT = Float64Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
-const THIN = 1e-4; // of the scene: an ellipsoid that is flat keeps a thickness, and its light
+const THIN = 5e-5; // of the scene: an ellipsoid that is flat keeps a thickness, and its light
 const ARROW_V = 0.35; // length of an arrow of 1 m/rad, m, and of half an axis
 const ARROW_W = 0.2; // of the scene: length of an arrow of 1 rad/rad
+const MOST = 0.25; // of the scene: longest half axis of an ellipsoid
+const SPIN = 0.25; // of an arrow: half axis of the angular ellipsoid, which is inside the linear one as a rule
+const BAR = 12; // pixels above the buttons
 const CLEAR = 0.3; // opacity of meshes that are looked through
 
-// Lengths at which velocities are drawn: m per m/s at one rad/s or m/s, and per rad/s.
-export function arrowScales(scene) {
-    const slides = scene.arms.length > 0 && scene.arms[0].coordinates.some((x) => x.unit === "m");
+// Lengths at which velocities of a tip are drawn: m per m/s at one rad/s or m/s, and per rad/s.
+export function arrowScales(scene, tip) {
+    const arm = scene.arms[0];
+    const slides = arm?.tips[tip]?.coordinates.some((k) => arm.coordinates[k].unit === "m");
     return { v: slides ? Math.min(ARROW_V, ARROW_W * scene.size) : ARROW_V, w: ARROW_W * scene.size };
 }
 
@@ -72,9 +76,9 @@ export function rulePose(node, tip, scene, scales) {
         case "column_w":
             return node.index < m ? arrowMatrix(T, column(0), scales.w) : HIDDEN;
         case "ellipsoid_v":
-            return thickened(ellipsoid(T, J, "translation", scales.v), THIN * scene.size, 0.5 * scene.size);
+            return thickened(ellipsoid(T, J, "translation", scales.v), THIN * scene.size, MOST * scene.size);
         case "ellipsoid_w":
-            return thickened(ellipsoid(T, J, "rotation", 0.4 * scales.w), THIN * scene.size, 0.5 * scene.size);
+            return thickened(ellipsoid(T, J, "rotation", SPIN * scales.w), THIN * scene.size, MOST * scene.size);
         case "singular":
             return arrowMatrix(T, singularVector(J, tip, scene), 1.5 * scales.w);
         default:
@@ -96,17 +100,19 @@ export class Drawing {
     constructor(K, state) {
         this.K = K;
         this.state = state;
-        this.scales = arrowScales(state.scene);
+        this.scales = arrowScales(state.scene, state.selectedTip);
         this.three = state.scene.objects.map((node) => K.getObjectById(node.id));
         this.three.forEach((object) => {
             object.matrixAutoUpdate = false;
         });
         this.ground = null;
+        this.fitted = null; // where `fit` put the camera
     }
 
     // Moves all objects to where they are, for the renderer to draw.
     update() {
-        const { scene } = this.state;
+        const { scene, selectedTip } = this.state;
+        this.scales = arrowScales(scene, selectedTip);
         scene.objects.forEach((node, k) => {
             const object = this.three[k];
             object.visible = this.isShown(node);
@@ -118,7 +124,7 @@ export class Drawing {
 
     isShown(node) {
         const { shown, choice } = this.state;
-        return shown.has(node.layer) && (node.choice === null || node.choice !== choice);
+        return (shown.has(node.layer) || node.rule === "target") && (node.choice === null || node.choice !== choice);
     }
 
     poseOf(node) {
@@ -170,27 +176,39 @@ export class Drawing {
         this.K.render();
     }
 
-    // A camera that sees all that is shown, from the front, a little from above.
+    // A camera that sees all that is shown below the buttons, from the front, a little from above.
     fit() {
         const { THREE } = this.K.Provider;
-        const box = this.bounds(THREE);
-        const sphere = box.getBoundingSphere(new THREE.Sphere());
-        const { camera } = this.K.getWorld();
-        const half = (camera.fov * Math.PI) / 360;
-        const across = Math.atan(Math.tan(half) * Math.min(camera.aspect, 1));
-        const distance = sphere.radius / Math.sin(across);
-        const way = unitVector([1, -1.25, 0.65]);
-        const { x, y, z } = sphere.center;
-        this.K.setCamera([x + way[0] * distance, y + way[1] * distance, z + way[2] * distance, x, y, z, 0, 0, 1]);
+        const { center, radius } = this.bounds(THREE, true).getBoundingSphere(new THREE.Sphere());
+        const { camera, height } = this.K.getWorld();
+        const bar = (document.getElementById("poekin-toolbar")?.offsetHeight ?? 0) + BAR;
+        const half = Math.tan((camera.fov * Math.PI) / 360);
+        const distance = radius / Math.sin(Math.atan(half * Math.min(camera.aspect, 1 - bar / height)));
+        const way = new THREE.Vector3(...unitVector([1, -1.25, 0.65]));
+        const up = new THREE.Vector3(0, 0, 1).addScaledVector(way, -way.z).normalize();
+        const at = center.addScaledVector(up, (distance * half * bar) / height);
+        const eye = way.multiplyScalar(distance).add(at);
+        this.K.setCamera([...eye.toArray(), ...at.toArray(), 0, 0, 1]);
+        this.fitted = camera.position.clone();
         this.K.render();
     }
 
-    bounds(THREE) {
+    // Sees the whole in a window of another size, where the reader has not moved the camera.
+    refit() {
+        const { position } = this.K.getWorld().camera;
+        if (this.fitted?.distanceTo(position) < 1e-6 * this.state.scene.size) {
+            this.fit();
+        }
+    }
+
+    // The box around all that is shown; around what follows the Jacobian only where it is asked for.
+    bounds(THREE, whole = false) {
         const box = new THREE.Box3();
         this.state.scene.objects.forEach((node, k) => {
-            if (this.three[k].visible && node.rule === null) {
-                this.three[k].updateWorldMatrix(true, false);
-                box.expandByObject(this.three[k]);
+            const object = this.three[k];
+            if (object.visible && (node.rule === null || (whole && object.matrix.determinant() !== 0))) {
+                object.updateWorldMatrix(true, false);
+                box.expandByObject(object);
             }
         });
         if (box.isEmpty()) {

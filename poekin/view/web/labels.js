@@ -44,13 +44,23 @@ export class Labels {
         }
         this.width = 0;
         this.height = 0;
+        this.kept = []; // boxes that the buttons over the canvas take
         new ResizeObserver(() => {
             this.width = this.box.clientWidth;
             this.height = this.box.clientHeight;
+            this.kept = this.buttons();
             this.update();
         }).observe(this.box);
         this.point = new K.Provider.THREE.Vector3();
         K.on(K.events.BEFORE_RENDER, () => this.update());
+    }
+
+    buttons() {
+        const { left, top } = this.box.getBoundingClientRect();
+        return [...document.querySelectorAll("#poekin-toolbar, .badge")].map((over) => {
+            const box = over.getBoundingClientRect();
+            return { left: box.left - left, right: box.right - left, top: box.top - top, bottom: box.bottom - top };
+        });
     }
 
     update() {
@@ -62,8 +72,9 @@ export class Labels {
             }
         }
         placed.sort((a, b) => a.one.order - b.one.order || a.depth - b.depth);
-        for (const k of apart(placed)) {
-            const { one, left, top } = placed[k];
+        const all = [...this.kept, ...placed];
+        for (const k of apart(all).slice(this.kept.length)) {
+            const { one, left, top } = all[k];
             one.element.style.visibility = "visible";
             one.element.style.transform = `translate(${left}px, ${top}px)`;
         }

@@ -236,6 +236,7 @@ async function open() {
     draw();
     toolbar(poekin, drawing);
     drawing.fit();
+    poekin.K.on(poekin.K.events.RESIZED, () => drawing.refit());
     if (panel.hasTip()) {
         enableHandle(poekin);
     }

@@ -192,6 +192,12 @@ def test_meshes_are_looked_through_and_a_cloud_is_cut(arm):
     assert arm.ask(planes) == []
 
 
+def test_the_edges_of_meshes_are_sharp_and_shapes_of_the_page_round(arm):
+    flat = "(id) => poekin.K.getObjectById(id).material.flatShading"
+    assert arm.ask(flat, number_of(arm, layer="meshes")) is True
+    assert arm.ask(flat, number_of(arm, rule="ellipsoid_v")) is False
+
+
 def test_another_tip_has_its_own_jacobian(arm):
     arm.tab.locator("#poekin-tip").select_option("1")
     arm.settle()

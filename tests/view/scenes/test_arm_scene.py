@@ -350,7 +350,9 @@ def test_a_cloud_holds_points_that_the_tip_reaches():
     q = arm.random(0, size=50)
     np.testing.assert_array_equal(cloud.points, arm.fk(q)[:, :3, 3])
     np.testing.assert_array_equal(cloud.values, pk.manipulability(arm, q).translation.yoshikawa)
-    assert "cloud" not in arm_scene(arm, cloud=50).shown
+    scene = arm_scene(arm, cloud=50)
+    assert "cloud" in scene.shown
+    assert scene.words[1].startswith("Cloud: 50 points that 'tool0' reaches")
 
 
 def test_the_cloud_of_a_floating_robot_is_where_the_floating_joint_is_zero():

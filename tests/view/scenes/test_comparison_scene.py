@@ -9,7 +9,7 @@ import poekin as pk
 from poekin.view.nodes import Label, Triangles
 from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.arm_parts.skeleton import glyph_radii, skeleton_nodes
-from poekin.view.scenes.comparison import comparison_scene
+from poekin.view.scenes.comparison import LEGEND, comparison_scene
 from poekin.view.scenes.two_arms.exaggerated import exaggerated
 from poekin.view.scenes.two_arms.overlay import second_nodes
 from tests.view.narrowed import all_of
@@ -45,11 +45,21 @@ def test_the_words_begin_with_the_outcome_and_the_table_has_each_joint():
     scene = comparison_scene(found, title="a and b")
     assert scene.title == "a and b"
     lines = found.summary().splitlines()
-    assert scene.words == (lines[-1], *lines[:-1])
+    assert scene.words == (lines[-1], LEGEND, *lines[:-1])
     (table,) = scene.tables
     assert [row[3] for row in table.rows] == ["same"] * 3 + ["DIFFERS"] + ["same"] * 3
     assert table.rows[3][6] == "3"
     assert {len(row) for row in table.rows} == {len(table.heads)}
+
+
+def test_the_table_leaves_out_what_is_the_same_of_all_joints_and_keeps_what_is_not():
+    (table,) = comparison_scene(pk.compare(ARM, lifted())).tables
+    assert table.heads[-1] == "at the arm (mm)"
+    (table,) = comparison_scene(pk.compare(ARM, ARM.rezeroed([0, 0, 0, 0, -0.2, 0, 0]))).tables
+    zero = table.heads.index("zero")
+    told = [row[1] for row in table.rows if row[zero] != "0 deg"]
+    assert told == [ARM.joint_names[4]]
+    assert "direction" not in table.heads
 
 
 def test_the_second_arm_stands_where_compare_aligned_it():

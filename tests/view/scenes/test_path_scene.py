@@ -60,6 +60,8 @@ def test_limits_and_singular_stretches_are_marked_where_they_are_with_their_sent
     scene = path_scene(path)
     assert motion_of(scene).marks == path.events
     assert {"limit", "singular"} <= {m.kind for m in motion_of(scene).marks}
+    assert scene.words[0] == path.summary().splitlines()[0]
+    assert not {m.text for m in motion_of(scene).marks} & {*scene.words}  # the marks say them
     (limit,) = [n for n in marked(scene) if n.hung.name.startswith("poses 10 to 20")]
     assert isinstance(limit, Polyline)
     np.testing.assert_allclose(limit.points, ARM.fk(q[10:21])[:, :3, 3], atol=1e-15)

@@ -10,7 +10,7 @@ from poekin.errors import InputError
 from poekin.view.nodes import Label, Triangles
 from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.solutions import solutions_scene
-from poekin.view.scenes.targets import MOST, solution_scene
+from poekin.view.scenes.targets import MOST, configuration_words, solution_scene
 from tests.view.narrowed import all_of
 
 ROBOT = pk.load("ur5")
@@ -51,6 +51,12 @@ def test_the_words_of_a_choice_are_its_coordinates_and_the_places_it_stands_for(
     text = solutions_scene(EVERY).choices[0].text
     assert text.split(",")[0] == f"1: {np.degrees(EVERY.solutions[0][0]):.3g}°"
     assert f"(one of {EVERY.n_revolutions[0]} places, whole turns apart)" in text
+
+
+def test_the_rounding_of_a_zero_is_no_number_of_a_choice():
+    assert configuration_words(ARM, np.array([1e-17, -1e-12, 1e-8, 0, 0, 0])).startswith(
+        "0°, 0°, 5.73e-07°"
+    )
 
 
 def test_the_target_of_ik_is_drawn_with_the_arm_at_its_solution():

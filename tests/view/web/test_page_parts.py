@@ -96,3 +96,12 @@ def test_screws_are_read_off_the_jacobian(tmp_path):
         for screw in screws:
             w, v, p = (np.array(screw[name]) for name in ("w", "v", "point"))
             assert np.abs(np.cross(p, w) + screw["pitch"] * w - v).max() <= 30 * u
+
+
+def test_only_a_tip_that_a_sliding_joint_moves_has_shorter_arrows(tmp_path):
+    script = """const scene = { size: 0.5, arms: [{
+            coordinates: [{ unit: "rad" }, { unit: "m" }],
+            tips: [{ coordinates: [0] }, { coordinates: [0, 1] }] }] };
+        print([0, 1].map((tip) => arrowScales(scene, tip).v));"""
+    found = ask(tmp_path, 'import { arrowScales } from "./drawing.js";', script)
+    assert found == [0.35, 0.1]

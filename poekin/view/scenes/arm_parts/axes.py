@@ -108,6 +108,6 @@ def _screw_row(joint: JointGeometry, k: int) -> tuple[str, ...]:
 
 
 def _vector(values: Array | list[float] | None) -> str:
-    """Numbers to five digits; what is below 1e-9 is the rounding of a zero."""
-    row = np.asarray(values, float)
-    return ", ".join(f"{x:.5g}" for x in np.where(np.abs(row) < 1e-9, 0.0, row))
+    """Numbers to five digits and six decimals."""
+    row = np.round(np.asarray(values, float), 6) + 0.0
+    return ", ".join(f"{x:.5g}" for x in row)

@@ -15,6 +15,11 @@ export function element(tag, attributes = {}, ...children) {
     return made;
 }
 
+// Words that may go on in the next line after each "_".
+export function breakable(text) {
+    return text.split(/(?<=_)/).flatMap((part, k) => (k > 0 ? [element("wbr"), part] : [part]));
+}
+
 export function section(title, open, ...children) {
     return element("details", { class: "section", open }, element("summary", { text: title }), ...children);
 }
@@ -28,8 +33,12 @@ export function fixed(x, places) {
     if (!Number.isFinite(x)) {
         return Number.isNaN(x) ? "–" : `${x < 0 ? "−" : ""}∞`;
     }
-    const text = x.toFixed(places);
-    return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
+    return unsigned(x.toFixed(places)).replace("-", "−");
+}
+
+// The text of a number, a zero without its sign.
+export function unsigned(text) {
+    return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
 // A number to so many figures; powers of ten beyond 10^±4.

@@ -1,6 +1,6 @@
 // The panel beside the canvas: words, sliders, layers, choices, numbers, tables.
 
-import { button, element, section } from "./elements.js";
+import { breakable, button, element, section } from "./elements.js";
 import { Numbers } from "./numbers.js";
 import { Sliders } from "./sliders.js";
 
@@ -34,12 +34,13 @@ export class Panel {
     }
 
     parts() {
-        const parts = [this.place];
-        if (this.sliders.rows.length > 0) {
-            parts.push(section("Joints", true, this.tools(), this.sliders.box));
-        }
+        const parts = [];
         if (this.poekin.scene.choices.length > 0) {
             parts.push(section("Solutions", true, this.choiceList()));
+        }
+        parts.push(this.place);
+        if (this.sliders.rows.length > 0) {
+            parts.push(section("Joints", true, this.tools(), this.sliders.box));
         }
         parts.push(section("Show", true, this.layers()));
         if (this.numbers !== null) {
@@ -146,7 +147,14 @@ export class Panel {
 
 function tableOf({ title, heads, rows }) {
     const head = element("tr", {}, ...heads.map((text) => element("th", { text, scope: "col" })));
-    const lines = rows.map((row) => element("tr", {}, ...row.map((text) => element("td", { text }))));
+    const lines = rows.map((row) => element("tr", {}, ...row.map(cell)));
     const grid = element("table", { class: "words" }, head, ...lines);
     return section(title, true, element("div", { class: "wide" }, grid));
+}
+
+// A cell whose name may be broken, and whose short vector may not.
+function cell(text) {
+    const short = text.length < 9 ? "short" : "";
+    const long = text.split(" ").some((word) => word.length > 10) ? "long" : "";
+    return element("td", { class: short || long || false }, ...breakable(text));
 }

@@ -1,6 +1,6 @@
 // A slider and a number box for each coordinate of the first arm, in the units that the reader chose.
 
-import { element } from "./elements.js";
+import { breakable, element, unsigned } from "./elements.js";
 import { rangeOf } from "../mathematics.js";
 
 const UNITS = {
@@ -31,7 +31,7 @@ export class Sliders {
         const number = element("input", { type: "number", step: "any", "aria-label": `${coordinate.name}, value` });
         number.addEventListener("change", () => this.typed(k, number));
         const unit = element("span", { class: "unit" });
-        const name = element("label", { text: coordinate.name, title: coordinate.name });
+        const name = element("label", { title: coordinate.name }, ...breakable(coordinate.name));
         const made = element("div", { class: "slider" }, name, slider, number, unit);
         return { element: made, slider, number, unit, low, high };
     }
@@ -65,7 +65,7 @@ export class Sliders {
     // The value in the box, whatever was typed there.
     write(k) {
         const places = PLACES[this.chosen[this.coordinates[k].unit]];
-        this.rows[k].number.value = (this.poekin.q[k] * this.factor(k)).toFixed(places);
+        this.rows[k].number.value = unsigned((this.poekin.q[k] * this.factor(k)).toFixed(places));
     }
 
     factor(k) {
