@@ -7,6 +7,7 @@ from typing import Any
 
 from ..analysis.compare.comparison import Comparison
 from ..analysis.dexterity.singularity import Singularity
+from ..checks import true_or_false
 from ..errors import InputError, quote, safe_repr
 from ..model.chain import Chain
 from ..model.kinematics.compiled import CompiledChain
@@ -34,6 +35,9 @@ OF_ARMS: dict[type, Callable[..., Scene]] = {
     Singularity: singularity_scene,
 }
 """Scenes of results about one arm, each drawn alone or in its robot."""
+
+DEFAULTS = {"meshes": True, "cloud": 0}
+"""Options that are given where nobody has said anything; the others are None."""
 
 _EXPECTED = (
     "view: expected a Robot or a Chain, or what compare, follow, ik, ik_all, singularity or "
@@ -63,7 +67,7 @@ def view(
     tip : str, optional
         Link of a robot whose Jacobian is shown first.
     meshes : bool, default True
-        Whether a robot's visual meshes are drawn where they are found.
+        Whether the visual meshes of the robot x are drawn where they are found.
     cloud : int, default 0
         Number of random configurations of a model whose tip positions are drawn.
     robot : Robot, optional
@@ -108,18 +112,21 @@ def view(
 
 def _scene(x: Any, options: dict[str, Any]) -> Scene:
     """Scene of whatever can be shown."""
+    true_or_false(options["meshes"], "meshes")
+    if not isinstance(options["robot"], Robot | None):
+        raise InputError(f"robot: expected a Robot, got {safe_repr(options['robot'])}")
     if isinstance(x, Robot | Chain | CompiledChain):
         _refuse(x, options, "robot")
         return arm_scene(x, **{name: options[name] for name in ("q", "tip", "meshes", "cloud")})
     if isinstance(x, Comparison):
-        _refuse(x, options, "tip", "cloud", "robot")
+        _refuse(x, options, "tip", "meshes", "cloud", "robot")
         return comparison_scene(x, q=options["q"])
     if isinstance(x, Calibration):
-        _refuse(x, options, "q", "tip", "cloud", "robot")
+        _refuse(x, options, "q", "tip", "meshes", "cloud", "robot")
         return calibration_scene(x)
     for kind, scene in OF_ARMS.items():
         if isinstance(x, kind):
-            _refuse(x, options, "q", "tip", "cloud")
+            _refuse(x, options, "q", "tip", "meshes", "cloud")
             return scene(x, options["robot"])
     raise InputError(f"{_EXPECTED}, got {safe_repr(x)}")
 
@@ -128,5 +135,5 @@ def _refuse(x: Any, options: dict[str, Any], *names: str) -> None:
     """Refuses options that do not go with what is shown."""
     for name in names:
         given = options[name]
-        if given is not None and not (name == "cloud" and given == 0):
+        if given is not None and given != DEFAULTS.get(name):
             raise InputError(f"{name}: no option of a page of {quote(type(x).__name__)}")

@@ -32,6 +32,8 @@ from .arm_parts.skeleton import glyph_radii, skeleton_nodes
 
 Model = Robot | Chain
 
+MOST_CLOUD = 1_000_000
+"""Points of a cloud; a page of them has 20 MB."""
 POINT = 1e-6
 """Size up to which an arm is a point, m."""
 
@@ -84,7 +86,8 @@ def arm_scene(
     (tests/view/scenes/test_arm_scene.py).
     """
     model = model if isinstance(model, Robot) else chain_of(model, "model")
-    cloud = whole(cloud, "cloud", 0)
+    if whole(cloud, "cloud", 0) > MOST_CLOUD:
+        raise InputError(f"cloud: expected at most {MOST_CLOUD} points, got {cloud}")
     tips = page_tips(model, _asked(model, tip))
     arm = arm_geometry(model, tips)
     opening = opening_q(arm.sliders, q)
@@ -183,7 +186,7 @@ def _asked(model: Model, tip: str | None) -> tuple[str, ...]:
         return ()
     if isinstance(model, Chain):
         raise InputError(f"tip: a chain has its own, {quote(model.tip)}; got {quote(tip)}")
-    return (tip,)
+    return (str(tip),)
 
 
 def _chains(model: Model, tips: Iterable[SceneTip]) -> list[Chain]:
