@@ -135,5 +135,5 @@ def _refuse(x: Any, options: dict[str, Any], *names: str) -> None:
     """Refuses options that do not go with what is shown."""
     for name in names:
         given = options[name]
-        if given is not None and given != DEFAULTS.get(name):
+        if given is not None and not (name in DEFAULTS and given == DEFAULTS[name]):
             raise InputError(f"{name}: no option of a page of {quote(type(x).__name__)}")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.errors import ShapeError
+from poekin.errors import InputError, ShapeError
 from poekin.solve.path.joint_path import joint_path
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -36,3 +36,19 @@ def test_without_times_there_are_no_rates():
 def test_what_is_no_list_of_configurations_is_refused(q):
     with pytest.raises(ShapeError, match="7"):
         joint_path(ARM, q)
+
+
+def test_a_row_that_is_no_configuration_is_a_pose_that_is_not_reached():
+    q = np.zeros((3, 7))
+    q[1, 2] = np.nan
+    path = joint_path(ARM, q)
+    assert path.solution.success.tolist() == [True, False, True]
+    assert path.summary().startswith("2 of 3 poses reached")
+    assert "bad target" in path.summary()
+
+
+@pytest.mark.parametrize("times", [[0, 2, 1], [0, np.nan, 1], [0, 1, np.inf]])
+def test_times_that_run_backwards_or_are_not_finite_are_refused(times):
+    with pytest.raises(InputError, match="times: expected finite seconds"):
+        joint_path(ARM, np.zeros((3, 7)), np.array(times))
+    assert len(joint_path(ARM, np.zeros((3, 7)), np.array([0.0, 1.0, 1.0])).q) == 3
