@@ -137,14 +137,14 @@ def test_nodes_that_move_and_look_alike_are_one_object():
 @pytest.mark.parametrize(("length", "shown"), [(200, "x" * 200), (201, "x" * 199 + "…")])
 def test_a_title_of_two_hundred_characters_is_whole_and_a_longer_one_is_cut(length, shown):
     html = page(sliding_arm.scene(title="x" * length)).html
-    assert re.search("<title>(.*?)</title>", html)[1] == shown
+    assert f"<title>{shown}</title>" in html
 
 
 def test_bodies_are_shaded_smooth_from_both_sides():
     msgpack = pytest.importorskip("msgpack")
     (body,) = [sliding_arm.box(Hung("meshes", "first", 1), [0, 0, 0], [1, 1, 1])]
-    packed = re.search("var data = '([^']*)'", page(sliding_arm.scene(nodes=(body,))).html)
-    (one,) = msgpack.unpackb(zlib.decompress(base64.b64decode(packed[1])))["objects"]
+    (packed,) = re.findall("var data = '([^']*)'", page(sliding_arm.scene(nodes=(body,))).html)
+    (one,) = msgpack.unpackb(zlib.decompress(base64.b64decode(packed)))["objects"]
     assert (one["flat_shading"], one["side"]) == (False, "double")
 
 

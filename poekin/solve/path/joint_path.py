@@ -47,7 +47,7 @@ def joint_path(chain: Chain, q: Array, times: Array | None = None) -> PathResult
     if times is not None and not (np.isfinite(times).all() and (np.diff(times) >= 0).all()):
         raise InputError("times: expected finite seconds, none before the one above it")
     count = len(q)
-    known = np.isfinite(q).all(axis=1)
+    known = np.asarray(np.isfinite(q).all(axis=1))
     nothing = np.zeros(count, int)
     zero = np.zeros(count)
     solution = Solution(

@@ -25,7 +25,8 @@ def shown(angle: float, gap: float) -> tuple[float, float]:
         ARM, ARM.replace(screws=screws), strict=True, tol_position=TOL, tol_rotation=TOL
     )
     row = joint_row(found.joints[2], found)
-    return tuple(float(row[HEADS.index(head)]) for head in ("angle (deg)", "normal (mm)"))
+    angle_deg, gap_mm = (str(row[HEADS.index(head)]) for head in ("angle (deg)", "normal (mm)"))
+    return float(angle_deg), float(gap_mm)
 
 
 @pytest.mark.parametrize("size", [0.5 * TOL, 2 * TOL])

@@ -217,3 +217,11 @@ def test_without_pycollada_the_extra_is_named(monkeypatch):
 
 def test_what_no_geometry_names_is_nothing_to_refuse():
     assert refuse.checked(b"anything", ".stl") == b"anything"
+
+
+def test_joined_pieces_keep_their_faces():
+    """Of three vertices each, so that a face of the second begins at 3, and of the third at 6."""
+    pieces = [(np.eye(3) * k, np.array([[0, 1, 2]])) for k in (1, 2, 3)]
+    vertices, faces = load.joined(pieces)
+    assert faces.tolist() == [[0, 1, 2], [3, 4, 5], [6, 7, 8]]
+    assert vertices[faces[2]].tolist() == (3 * np.eye(3)).tolist()

@@ -110,7 +110,9 @@ def test_all_files_together_may_have_so_many_bytes(folder, monkeypatch):
 
 def test_a_robot_may_have_so_many_shapes(folder, monkeypatch):
     monkeypatch.setattr(module, "MOST_SHAPES", 2)
-    (node,), (left,) = mesh_nodes(robot_of(folder, visual('<box size="1 2 3"/>') + visual(MESH) * 2))
+    (node,), (left,) = mesh_nodes(
+        robot_of(folder, visual('<box size="1 2 3"/>') + visual(MESH) * 2)
+    )
     assert len(node.faces) == 12 + 4
     assert (left.what, left.why) == ("'m.stl'", "the shapes before it are 2 already")
 

@@ -40,6 +40,7 @@ def test_the_joint_that_compare_names_is_the_one_that_is_red(joint):
     body = chain_geometry(made.chain).poses(np.append(np.zeros(7), 1.0))[label.hung.link]
     seen = body[:3, :3] @ label.point + body[:3, 3]
     axis = pk.screw.axis_of(found.b.screws[joint])
+    assert axis.point is not None
     assert np.linalg.norm(np.cross(axis.direction, seen - axis.point)) < 1e-12
     centre = found.b.joint_poses(np.zeros(7))[joint, :3, 3]
     assert (seen - centre) @ axis.direction > 0
