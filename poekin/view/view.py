@@ -7,6 +7,7 @@ from typing import Any
 
 from ..analysis.compare.comparison import Comparison
 from ..analysis.dexterity.singularity import Singularity
+from ..checks import true_or_false
 from ..errors import InputError, quote, safe_repr
 from ..model.chain import Chain
 from ..model.kinematics.compiled import CompiledChain
@@ -109,14 +110,17 @@ def view(
 
 def _scene(x: Any, options: dict[str, Any]) -> Scene:
     """Scene of whatever can be shown."""
+    true_or_false(options["meshes"], "meshes")
+    if not isinstance(options["robot"], Robot | None):
+        raise InputError(f"robot: expected a Robot, got {safe_repr(options['robot'])}")
     if isinstance(x, Robot | Chain | CompiledChain):
         _refuse(x, options, "robot")
         return arm_scene(x, **{name: options[name] for name in ("q", "tip", "meshes", "cloud")})
     if isinstance(x, Comparison):
-        _refuse(x, options, "tip", "cloud", "robot")
+        _refuse(x, options, "tip", "meshes", "cloud", "robot")
         return comparison_scene(x, q=options["q"])
     if isinstance(x, Calibration):
-        _refuse(x, options, "q", "tip", "cloud", "robot")
+        _refuse(x, options, "q", "tip", "meshes", "cloud", "robot")
         return calibration_scene(x)
     for kind, scene in OF_ARMS.items():
         if isinstance(x, kind):

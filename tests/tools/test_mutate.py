@@ -250,9 +250,9 @@ def test_every_module_has_tests_that_exist():
         ("formats/urdf", "formats/urdf"),
         ("formats/ur/conf", "formats/ur"),  # by the name of its folder
         ("solve/path_result", "solve/path_result"),
-        ("formats/attributes", "formats/objects"),  # by the tests that import it
+        ("formats/attributes", "formats/objects"),
         ("engine/ik_codes", "engine/ik_kernels"),
-        ("model/tree_arrays", "model/robot"),  # by what imports it
+        ("model/tree_arrays", "model/link_program"),  # by the tests that import it
         ("solve/measurement", "solve/measurements"),
     ],
 )

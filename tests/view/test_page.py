@@ -134,6 +134,21 @@ def test_nodes_that_move_and_look_alike_are_one_object():
     assert json.loads(scene_json(scene, objects))["objects"][0]["names"] == ["a", "b"]
 
 
+@pytest.mark.parametrize(("length", "shown"), [(200, "x" * 200), (201, "x" * 199 + "…")])
+def test_a_title_of_two_hundred_characters_is_whole_and_a_longer_one_is_cut(length, shown):
+    html = page(sliding_arm.scene(title="x" * length)).html
+    assert f"<title>{shown}</title>" in html
+
+
+@pytest.mark.parametrize(("layer", "flat"), [("meshes", True), ("skeleton", False)])
+def test_meshes_keep_their_edges_and_bones_are_round_from_both_sides(layer, flat):
+    msgpack = pytest.importorskip("msgpack")
+    body = sliding_arm.box(Hung(layer, "first", 1), [0, 0, 0], [1, 1, 1])
+    (packed,) = re.findall("var data = '([^']*)'", page(sliding_arm.scene(nodes=(body,))).html)
+    (one,) = msgpack.unpackb(zlib.decompress(base64.b64decode(packed)))["objects"]
+    assert (one["flat_shading"], one["side"]) == (flat, "double")
+
+
 def test_a_page_is_saved_whole_and_says_where(made, tmp_path):
     path = made.save(tmp_path / "arm.html")
     assert path == tmp_path / "arm.html"

@@ -135,11 +135,15 @@ def test_the_arc_of_a_revolute_joint_turns_the_positive_way():
     assert -math.pi < base < tip < 0.0
     assert abs(tip + 0.5 * math.pi) < 0.05
     np.testing.assert_allclose(head[:, 2], 0.0, atol=1e-15)
+    low, high = made.vertices[:, 2].min(), made.vertices[:, 2].max()
+    assert high == pytest.approx(-low, abs=1e-15)
+    assert high <= 3 * 0.05  # the head's radius
 
 
 @pytest.mark.parametrize("rise", [2.0, -2.0])
 def test_a_helix_is_right_handed_where_its_pitch_is_positive(rise):
     points = shapes.helix_points(1.0, 6 * math.pi, rise)
+    assert len(points) == 3 * 24 + 1
     turning = np.cross(points[0], points[1])[2]
     assert turning > 0
     assert math.copysign(1.0, points[1, 2] - points[0, 2]) == math.copysign(1.0, rise)
@@ -160,3 +164,11 @@ def test_only_sharp_edges_are_split():
     assert len(shapes.box([1, 2, 3]).vertices) == 24
     assert len(shapes.cylinder(1.0, 1.0, 16).vertices) == 4 * 16 + 2
     assert len(shapes.sphere(1.0, 16).vertices) == 7 * 16 + 2
+
+
+def test_merged_pieces_keep_their_faces():
+    """Of three vertices each, so that a face of the second begins at 3, and of the third at 6."""
+    pieces = [(np.eye(3) * k, np.array([[0, 1, 2]])) for k in (1, 2, 3)]
+    vertices, faces = shapes.merged(*pieces)
+    assert faces.tolist() == [[0, 1, 2], [3, 4, 5], [6, 7, 8]]
+    assert vertices[faces[2]].tolist() == (3 * np.eye(3)).tolist()

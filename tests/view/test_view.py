@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.errors import InputError, UnknownName
+from poekin.errors import InputError, PoekinError, UnknownName
 from poekin.solve.path.joint_path import joint_path
 
 pytest.importorskip("k3d", reason="no k3d: no page was made")
@@ -59,12 +59,29 @@ def test_what_cannot_be_shown_is_refused_with_what_can(x):
         ("singularity", {"cloud": 10}),
         ("path", {"meshes": False}),
         ("calibration", {"q": [0] * 6}),
+        ("calibration", {"meshes": False}),
+        ("ik", {"meshes": False}),
     ],
 )
 def test_an_option_that_does_not_go_with_it_is_refused_by_its_name(kind, option):
     (name,) = option
     with pytest.raises(InputError, match=f"{name}: no option of a page of"):
         pk.view(KINDS[kind](), **option)
+
+
+@pytest.mark.parametrize(
+    ("kind", "options", "words"),
+    [
+        ("ik", {"robot": "ur5"}, "robot: expected a Robot, got 'ur5'"),
+        ("ik", {"robot": ARM}, "robot: expected a Robot"),
+        ("robot", {"meshes": "no"}, "meshes: expected True or False"),
+        ("robot", {"cloud": 10**12}, "cloud: expected at most"),
+        ("robot", {"tip": ["tool"]}, "no tip link"),
+    ],
+)
+def test_an_option_of_another_kind_is_refused_by_its_name(kind, options, words):
+    with pytest.raises(PoekinError, match=words):
+        pk.view(KINDS[kind](), **options)
 
 
 def test_q_and_tip_are_checked_as_elsewhere():

@@ -30,6 +30,13 @@ _CALLS = "testing/calls testing/child"
 _AXES = "analysis/axes analysis/results cli/axes analysis/compare_extra"
 _COUNTS = "analysis/count analysis/results cli/count"
 _COMPARES = "analysis/results analysis/compare analysis/compare_figures analysis/compare_slides"
+_SCENES = (
+    "view/arm_scene view/comparison_scene view/calibration_scene view/path_scene"
+    " view/singularity_scene view/solution_scenes view/exaggerated"
+)
+_SLOW_LEAVES = (  # left for the end
+    "view/kinematics::test_links_and_jacobians_of_all_leaves_of_example_robot_data_are_the_robots"
+)
 _SLOW = "formats/dh::test_every_chain_of_the_real_robots_has_a_table"  # left for the end
 
 NEAR = {
@@ -87,6 +94,20 @@ NEAR = {
     "solve/calibrate": "solve/cross_validation own solve/refusals solve/fitting solve/toml_io",
     "solve/calibration": "solve/html_report solve/calibrate solve/toml_io solve/fitting",
     "solve/losses": "solve/noise solve/fitting solve/refit solve/exchange",
+    "view/k3d_objects view/page view/palette view/scene_json": "view/page view/page_parts",
+    "view/kinematics": f"view/arm_scene own --deselect={_SLOW_LEAVES}",
+    "view/nodes view/scene view/shapes": f"view/shapes {_SCENES}",
+    "view/arm view/arm_parts/ view/stage": f"{_SCENES} cli/view",
+    "view/scenes/calibration": "view/calibration_scene",
+    "view/scenes/comparison": "view/comparison_scene view/view",
+    "view/scenes/path": "view/path_scene",
+    "view/scenes/singular": "view/singularity_scene",
+    "view/scenes/solutions view/scenes/targets": "view/solution_scenes view/path_scene",
+    "view/exaggerated view/overlay": f"view/exaggerated {_SCENES}",
+    "view/view": "own",
+    "cli/draw": "own cli/compare",
+    "cli/view": "own",
+    "engine/tree": "own model/link_program",
     "html_page": "own solve/html_report",
     "solve/last_result": "own solve/fitting",
     "checks": "own model/refusals solve/refusals solve/choose analysis/axes",

@@ -142,11 +142,16 @@ def _of_robot(robot: Robot, asked: ViewOptions, format: str | None, quaternion: 
 
 def _path(given: str, chain: Chain, units: SaidUnits) -> PathResult:
     """Path of the configurations in a file, with its times where it has them."""
+    times = None
     if given.lower().endswith(".csv") and not units.said():
-        return joint_path(chain, *read_joints(given, chain))
-    with Progress("reading") as progress:
-        q = array_files.read_configurations(given, units.columns(chain), progress)
-    return joint_path(chain, units.to_si(q, chain))
+        q, times = read_joints(given, chain)
+    else:
+        with Progress("reading") as progress:
+            q = array_files.read_configurations(given, units.columns(chain), progress)
+        q = units.to_si(q, chain)
+    if not len(q):
+        raise InputError("--path: expected a configuration at least, got none")
+    return joint_path(chain, q, times)
 
 
 def _compared(file: str, asked: ViewOptions) -> tuple[Page, str]:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...errors import ShapeError
+from ...errors import InputError, ShapeError
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
-from ..ik.solution import SOLVED, Solution
+from ..ik.solution import BAD_TARGET, SOLVED, Solution
 from ..ik.task import make_task
 from .path_interval import limits_of_joints
 from .path_result import PathResult
@@ -24,7 +24,7 @@ def joint_path(chain: Chain, q: Array, times: Array | None = None) -> PathResult
     q : (N, m) array_like
         Configurations, rad or m.
     times : (N,) array_like, optional
-        Their times, s.
+        Their times, s, none before the one above it.
 
     Returns
     -------
@@ -35,6 +35,8 @@ def joint_path(chain: Chain, q: Array, times: Array | None = None) -> PathResult
     ------
     ShapeError
         If q is no list of configurations.
+    InputError
+        If a time is not finite or before the one above it.
 
     Notes
     -----
@@ -43,13 +45,16 @@ def joint_path(chain: Chain, q: Array, times: Array | None = None) -> PathResult
     q = coordinates(q, chain.q_names)
     if q.ndim != 2 or not len(q):
         raise ShapeError(f"q: expected configurations (N, {chain.dof}), got shape {q.shape}")
+    if times is not None and not (np.isfinite(times).all() and (np.diff(times) >= 0).all()):
+        raise InputError("times: expected finite seconds, none before the one above it")
     count = len(q)
+    known = np.asarray(np.isfinite(q).all(axis=1))
     nothing = np.zeros(count, int)
     zero = np.zeros(count)
     solution = Solution(
         q,
-        np.ones(count, bool),
-        np.full(count, SOLVED),
+        known,
+        np.where(known, SOLVED, BAD_TARGET),
         zero,
         zero,
         nothing,

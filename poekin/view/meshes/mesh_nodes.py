@@ -21,6 +21,8 @@ BUDGET = 400_000
 """Triangles of a robot; a page of them has 5 MB."""
 MOST_BYTES = 512 * 2**20
 """Bytes of all mesh files of a robot together."""
+MOST_SHAPES = 1000
+"""Shapes of a robot that are drawn."""
 
 
 def mesh_nodes(robot: Robot) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]]:
@@ -50,8 +52,10 @@ def mesh_nodes(robot: Robot) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]
     missing = list(left_out)
     reader = _Reader(robot)
     drawn: list[tuple[Visual, tuple[MeshPart, ...]]] = []
-    for visual in found:
+    for number, visual in enumerate(found):
         try:
+            if number >= MOST_SHAPES:
+                raise FileError(f"the shapes before it are {MOST_SHAPES} already")
             parts = reader.parts(visual)
             if _farthest(visual, parts) > FARTHEST:
                 raise FileError(f"expected it within {FARTHEST:g} m of its link")
@@ -84,12 +88,13 @@ def mesh_nodes(robot: Robot) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]
 
 
 class _Reader:
-    """Reader of the meshes of one robot, each file once."""
+    """Reader of the meshes of one robot, each file once; shapes of one size are made once."""
 
     def __init__(self, robot: Robot) -> None:
         self.finder = MeshFinder(str(robot.source))
         self.left = MOST_BYTES
         self.files: dict[str, tuple[MeshPart, ...]] = {}
+        self.primitives: dict[tuple[str, tuple[float, ...]], tuple[MeshPart, ...]] = {}
         self.smaller: dict[int, tuple[np.ndarray, np.ndarray, float]] = {}
 
     def parts(self, visual: Visual) -> tuple[MeshPart, ...]:
@@ -100,7 +105,10 @@ class _Reader:
                 raise FileError("a face has a vertex that does not exist")
             return (MeshPart(*merged([visual.triangles]), None),)
         if visual.shape != "mesh":
-            return (MeshPart(*_primitive(visual), None),)
+            key = (visual.shape, visual.size)
+            if key not in self.primitives:
+                self.primitives[key] = (MeshPart(*_primitive(visual), None),)
+            return self.primitives[key]
         path = self.finder.find(visual.file)
         if path not in self.files:
             self.left -= os.path.getsize(path)
@@ -111,7 +119,7 @@ class _Reader:
 
     def reduced(self, part: MeshPart, limit: int) -> tuple[np.ndarray, np.ndarray, float]:
         """MeshPart with so many triangles at most, and how far a vertex may be off, in its own unit."""
-        known = id(part.faces)  # which the files keep
+        known = id(part.faces)  # which the files, primitives and visuals keep
         if known not in self.smaller:
             self.smaller[known] = reduced(part.vertices, part.faces, limit)
         return self.smaller[known]

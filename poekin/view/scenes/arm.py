@@ -31,6 +31,8 @@ from .arm_parts.reach import reach_cloud
 from .arm_parts.skeleton import glyph_radii, skeleton_nodes
 
 CLOUD = "Cloud: {} points that {} reaches, blue to orange by the manipulability of its translation."
+MOST_CLOUD = 1_000_000
+"""Points of a cloud; a page of them has 20 MB."""
 POINT = 1e-6
 """Size up to which an arm is a point, m."""
 
@@ -83,7 +85,8 @@ def arm_scene(
     (tests/view/scenes/test_arm_scene.py).
     """
     model = model if isinstance(model, Robot) else chain_of(model, "model")
-    cloud = whole(cloud, "cloud", 0)
+    if whole(cloud, "cloud", 0) > MOST_CLOUD:
+        raise InputError(f"cloud: expected at most {MOST_CLOUD} points, got {cloud}")
     tips = page_tips(model, _asked(model, tip))
     arm = arm_geometry(model, tips)
     opening = opening_q(arm.sliders, q)
@@ -182,7 +185,7 @@ def _asked(model: Model, tip: str | None) -> tuple[str, ...]:
         return ()
     if isinstance(model, Chain):
         raise InputError(f"tip: a chain has its own, {quote(model.tip)}; got {quote(tip)}")
-    return (tip,)
+    return (str(tip),)
 
 
 def _model_words(model: Model, arm: ArmGeometry) -> list[str]:

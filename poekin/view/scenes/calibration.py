@@ -44,7 +44,7 @@ def calibration_scene(found: Calibration) -> Scene:
     """
     vectors = found.vectors
     q = None if vectors is None or not len(vectors.q) else vectors.q[0]
-    scene = arm_scene(found.nominal, q=q, meshes=False)
+    scene = arm_scene(found.nominal, q=q)
     side_by_side = compare(found.nominal, found.chain, strict=True)
     second = exaggerated(side_by_side)
     own = side_by_side.b

@@ -55,7 +55,7 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
     Accuracy: at a factor of 1 model b stands where `compare` has it, to the rounding of
     `Chain.fk` (tests/view/scenes/test_comparison_scene.py).
     """
-    scene = arm_scene(found.a, q=q, meshes=False)
+    scene = arm_scene(found.a, q=q)
     second = exaggerated(found)
     geometry = chain_geometry(found.b)
     base = np.eye(4) if found.base is None else found.base

@@ -134,6 +134,23 @@ def test_what_is_wrong_is_one_message_and_nothing_is_written(words, said, refuse
     assert list(here.iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "--path: expected a configuration at least"),
+        ("turn,slide\n", "--path: expected a configuration at least"),
+        ("time,turn,slide\n1,0,0\n0,0,0\n", "times: expected finite seconds"),
+        ("turn,lower\n0,0\n", "neither a number nor a coordinate"),
+        ("nan,0\n", "at least one finite pose"),
+    ],
+)
+def test_what_is_no_path_is_refused(text, said, refused, crane, here, tmp_path):
+    file = tmp_path / "q.csv"
+    file.write_text(text)
+    assert said in refused("view", crane, "--tip", "hook", "--path", file)
+    assert list(here.iterdir()) == []
+
+
 def test_a_model_is_not_overwritten_and_a_page_is(refused, poekin, crane, here):
     model = here / "crane.html"
     model.write_bytes(Path(crane).read_bytes())

@@ -83,3 +83,23 @@ def test_without_matplotlib_the_extra_is_named(arm, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(MissingExtra, match=r"pip install 'poekin\[report\]'"):
         arm.plot()
+
+
+def test_the_box_holds_the_arm_in_its_middle_and_the_labels_stand_ahead_of_their_axes(arm):
+    """Half the box is 1.1 of half the longest side; an arrow is 0.3, a label 1.5 of half a line ahead."""
+    q = [0.3, 0.2, -0.4]
+    (axes,) = arm.plot(q).axes
+    skeleton = of(axes, "-")[0]
+    low, high = skeleton.min(axis=1), skeleton.max(axis=1)
+    half = np.ptp(skeleton, axis=1).max() / 2
+    box = np.array([axes.get_xlim3d(), axes.get_ylim3d(), axes.get_zlim3d()])
+    assert np.allclose(box.mean(axis=1), (low + high) / 2)
+    assert np.allclose(np.ptp(box, axis=1), 2.2 * half)
+    frames = arm.joint_poses(q)
+    labels = np.array([text.get_position_3d() for text in axes.texts[:3]])
+    assert np.allclose(labels, frames[:, :3, 3] + 0.45 * half * frames[:, :3, 2])
+    arrows = [c for c in axes.collections if c.get_linewidth()[0] == 0.8]
+    for arrow, frame in zip(arrows, frames, strict=True):
+        tip, start = arrow._segments3d[0]
+        assert np.allclose(start, frame[:3, 3] + 0.3 * half * frame[:3, 2])
+        assert np.allclose(tip - start, 0.09 * half * frame[:3, 2])

@@ -39,6 +39,7 @@ def test_a_robot_shows_what_its_joints_connect_and_follow():
 
 
 def test_a_long_table_says_how_many_rows_there_are():
+    assert ROWS == 60
     links = [f"l{k}" for k in range(ROWS + 2)]
     joints = [pk.Joint(f"j{k}", "fixed", *pair) for k, pair in enumerate(pairwise(links))]
     html = pk.Robot("snake", links, joints)._repr_html_()

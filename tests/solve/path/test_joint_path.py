@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.errors import ShapeError
+from poekin.errors import InputError, ShapeError
 from poekin.solve.path.joint_path import joint_path
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -43,6 +43,22 @@ def test_joints_at_limits_of_their_own_are_said():
     coupling = np.eye(6) - np.eye(6, k=-1)
     own = np.tile([-1.0, 1.0], (6, 1))
     coupled = arm.replace(coupling=coupling, q_names=list("abcdef"), limits=None, joint_limits=own)
-    path = joint_path(coupled, [np.zeros(6), [0.0, 1.0, 1.0, 1.0, 1.0, 1.0]])
+    path = joint_path(coupled, np.array([np.zeros(6), [0.0, 1.0, 1.0, 1.0, 1.0, 1.0]]))
     (found,) = path.joints_at_limits
     assert (found.name, found.first, found.bound) == (arm.joint_names[1], 1, 1.0)
+
+
+def test_a_row_that_is_no_configuration_is_a_pose_that_is_not_reached():
+    q = np.zeros((3, 7))
+    q[1, 2] = np.nan
+    path = joint_path(ARM, q)
+    assert path.solution.success.tolist() == [True, False, True]
+    assert path.summary().startswith("2 of 3 poses reached")
+    assert "bad target" in path.summary()
+
+
+@pytest.mark.parametrize("times", [[0, 2, 1], [0, np.nan, 1], [0, 1, np.inf]])
+def test_times_that_run_backwards_or_are_not_finite_are_refused(times):
+    with pytest.raises(InputError, match="times: expected finite seconds"):
+        joint_path(ARM, np.zeros((3, 7)), np.array(times))
+    assert len(joint_path(ARM, np.zeros((3, 7)), np.array([0.0, 1.0, 1.0])).q) == 3

@@ -118,6 +118,15 @@ def test_the_tool_follows_the_mouse_in_the_plane_of_the_screen(arm, free):
     assert arm.ask("poekin.target") is None
 
 
+def test_the_mouse_is_a_hand_over_the_tool_and_nowhere_else(arm):
+    arm.move(Q)
+    x, y, _ = arm.ask(ON_SCREEN)
+    cursor = "poekin.K.getWorld().renderer.domElement.style.cursor"
+    for away, shown in ((0, "grab"), (60, ""), (10, "grab")):
+        arm.tab.mouse.move(x + away, y)
+        assert arm.ask(cursor) == shown
+
+
 def test_a_press_beside_the_handle_turns_the_camera_and_leaves_the_arm(arm):
     arm.move(Q)
     camera = arm.ask(CAMERA)

@@ -167,6 +167,14 @@ def test_the_panel_shows_what_the_numbers_are(arm):
     assert np.abs(np.array(shown) - jacobian([0.5, 1.0, 0.1])).max() <= 0.5001e-4
 
 
+def test_a_table_has_a_row_of_heads_where_its_columns_have_names(arm):
+    script = """() => [...document.querySelectorAll("table")].map(
+        (t) => [...t.rows[0].querySelectorAll("th[scope=col]")].map((head) => head.textContent))"""
+    pose, _, measures, *_ = arm.ask(script)
+    assert pose == ["", "x", "y", "z", "w"]
+    assert measures == []
+
+
 def test_a_layer_is_switched_off_and_on(arm):
     number = number_of(arm, layer="axes")
     switch = arm.tab.locator('input[data-layer="axes"]')

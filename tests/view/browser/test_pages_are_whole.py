@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.analysis.compare.comparison import Comparison
 
 pytest.importorskip("k3d", reason="no k3d: no page was opened")
 ARM = pk.load("ur5e").chain()
@@ -15,7 +16,7 @@ Q = np.array([0, -1.2, 1.4, -1.7, -1.57, 0])
 STRETCHED = [0, -1.2, 0, -1.7, -1.57, 0]
 
 
-def compared() -> pk.Comparison:
+def compared() -> Comparison:
     screws = ARM.screws.copy()
     screws[2, 3:] += np.cross([0, 0, -0.003], screws[2, :3])
     return pk.compare(ARM, ARM.replace(screws=screws))

@@ -136,3 +136,19 @@ def test_a_mesh_is_no_part_of_loading(tmp_path):
         "</visual></link></robot>"
     )
     assert urdf.read(tmp_path / "arm.urdf").links == ("a",)
+
+
+def test_another_package_is_not_looked_for_in_example_robot_data(tmp_path):
+    folder = erd_folder()
+    if folder is None:
+        pytest.skip("no example-robot-data: no mesh was looked for in it")
+    inside = next(name for name in sorted(os.listdir(folder)) if os.path.isdir(f"{folder}/{name}"))
+    file = next(
+        os.path.relpath(os.path.join(place, names[0]), folder)
+        for place, _, names in os.walk(os.path.join(folder, inside))
+        if names
+    )
+    finder = MeshFinder(str(tmp_path / "r.urdf"))
+    assert finder.find(f"package://{erd.PACKAGE}/{file}") == os.path.join(folder, file)
+    with pytest.raises(FileError, match="no package 'elsewhere'"):
+        finder.find(f"package://elsewhere/{file}")

@@ -190,6 +190,17 @@ def test_noise_is_refused_or_drawn_and_nothing_else(name):
                 continue
 
 
+def test_each_place_that_names_an_array_of_a_glb_counts_once_more(monkeypatch):
+    """Two primitives of four vertices, and one more for each, as an array may be empty."""
+    part = {"attributes": {"POSITION": 0}, "indices": 1}
+    twice = glb(meshes=[{"primitives": [part, part]}])
+    monkeypatch.setattr(refuse, "MOST", 10)
+    assert refuse.checked(twice, ".glb") == twice
+    monkeypatch.setattr(refuse, "MOST", 9)
+    with pytest.raises(FileError, match="named too many times"):
+        refuse.checked(twice, ".glb")
+
+
 def test_a_file_that_is_too_large_is_refused_unread(tmp_path):
     path = tmp_path / "m.stl"
     with path.open("wb") as file:

@@ -47,12 +47,12 @@ def test_a_mesh_is_scaled_then_placed_on_its_link_and_a_mirrored_one_still_faces
 
 
 def test_visuals_of_one_colour_on_a_link_are_one_node_and_the_model_s_colour_is_first(folder):
-    red = '<material name="red"><color rgba="1 0 0 0.5"/></material>'
+    red = '<material name="red"><color rgba="1 0.5 0.25 0.5"/></material>'
     visuals = visual(MESH) + visual(MESH, red) + visual(MESH, '<material name="red"/>')
     nodes, _ = mesh_nodes(robot_of(folder, visuals))
     assert [(n.hung.color, n.hung.opacity, len(n.faces)) for n in nodes] == [
         (None, 1.0, 4),
-        (0xFF0000, 0.5, 8),
+        (0xFF8040, 0.5, 8),
     ]
 
 
@@ -105,6 +105,15 @@ def test_all_files_together_may_have_so_many_bytes(folder, monkeypatch):
     assert len(node.faces) == 8
     assert left.what == "'n.stl'"
     assert "meshes before it" in left.why
+
+
+def test_a_robot_may_have_so_many_shapes(folder, monkeypatch):
+    monkeypatch.setattr(module, "MOST_SHAPES", 2)
+    (node,), (left,) = mesh_nodes(
+        robot_of(folder, visual('<box size="1 2 3"/>') + visual(MESH) * 2)
+    )
+    assert len(node.faces) == 12 + 4
+    assert (left.what, left.why) == ("'m.stl'", "the shapes before it are 2 already")
 
 
 def test_a_robot_of_too_many_triangles_has_fewer_and_says_how_far_off(folder, monkeypatch):

@@ -448,3 +448,35 @@ def test_many_shapes_that_are_not_drawn_for_one_reason_make_one_sentence():
         "Not drawn: 'm0.stl', 'm1.stl', 'm2.stl', 'm3.stl', 'm4.stl', 'm5.stl' and 3 more: "
         "no such file.",
     ]
+
+
+def test_the_glyph_of_a_slide_is_as_wide_as_its_way():
+    """Its radius is half the way, where its neighbours leave more room."""
+    joints = [
+        pk.Joint("turn", "revolute", "base", "post"),
+        pk.Joint(
+            "slide", "prismatic", "post", "cart", pk.se3.exp([0, 0, 0, 1, 0, 0]), limits=(0.0, 0.04)
+        ),
+        pk.Joint("tilt", "revolute", "cart", "arm", pk.se3.exp([0, 0, 0, 0, 1, 0])),
+    ]
+    arm = arm_geometry(pk.Robot("cart", ["base", "post", "cart", "arm"], joints), ())
+    assert glyph_radii(arm, np.zeros(2 + 1), 1.5)[1] == 0.02
+
+
+@pytest.mark.parametrize(("length", "bones"), [(1e-4, 1), (1e-2, 2)])
+def test_a_bone_shorter_than_a_millionth_of_the_arm_is_not_drawn(length, bones):
+    """Of an arm of a kilometre, 1 mm."""
+    far = pk.se3.exp([0, 0, 0, 1000, 0, 0])
+    near = pk.se3.exp([0, 0, 0, 0, length, 0])
+    joints = [
+        pk.Joint("a", "revolute", "base", "long", far),
+        pk.Joint("b", "revolute", "long", "short", near),
+    ]
+    scene = arm_scene(pk.Robot("mast", ["base", "long", "short"], joints))
+    found = of_kind(scene.nodes, Triangles, "skeleton")
+    assert len([node for node in found if node.hung.role == "first"]) == bones
+
+
+def test_a_cloud_has_a_million_points_at_most():
+    with pytest.raises(InputError, match="cloud: expected at most 1000000 points"):
+        arm_scene(odd_robot(), cloud=10**12)

@@ -61,3 +61,15 @@ def test_of_many_residuals_some_are_drawn():
     many = pk.calibrate(ARM, made.q, made.measurements, folds=0)
     (cloud,) = [n for n in calibration_scene(many).nodes if isinstance(n, Cloud)]
     assert len(cloud.points) == MOST
+
+
+def test_residuals_of_nothing_have_no_arrows_and_small_ones_are_drawn_a_thousand_times():
+    """The calibrated arm is the true one: what is left of its residuals is rounding."""
+    screws = ARM.screws.copy()
+    screws[2] = pk.se3.adjoint(pk.se3.exp([0, 0, 0, 1e-6, 1e-6, 1e-6])) @ screws[2]
+    q = ARM.random(3, size=30)
+    found = pk.calibrate(ARM, q, ARM.replace(screws=screws).fk(q), folds=0)
+    scene = calibration_scene(found)
+    arrows = [n for n in scene.nodes if isinstance(n, Triangles) and n.hung.layer == "cloud"]
+    assert [n.hung.name for n in arrows] == ["residuals of the nominal arm × 1000"]
+    assert all(np.isfinite(n.vertices).all() for n in arrows)

@@ -34,8 +34,17 @@ def test_the_joint_that_compare_names_is_the_one_that_is_red(joint):
     scene = comparison_scene(found)
     (sentence,) = red(scene)
     assert sentence.startswith(f"joint {joint + 1} ('{differing.name_b}') has an axis that is 3 mm")
-    (label,) = [n.text for n in scene.nodes if isinstance(n, Label) and n.hung.arm == 1]
-    assert label == differing.name_b
+    (label,) = [n for n in scene.nodes if isinstance(n, Label) and n.hung.arm == 1]
+    assert label.text == differing.name_b
+    # on the axis of model b at q = 0, ahead of the joint
+    made = exaggerated(found)
+    body = chain_geometry(made.chain).poses(np.append(np.zeros(7), 1.0))[label.hung.link]
+    seen = body[:3, :3] @ label.point + body[:3, 3]
+    axis = pk.screw.axis_of(found.b.screws[joint])
+    assert axis.point is not None
+    assert np.linalg.norm(np.cross(axis.direction, seen - axis.point)) < 1e-12
+    centre = found.b.joint_poses(np.zeros(7))[joint, :3, 3]
+    assert (seen - centre) @ axis.direction > 0
     assert {n.hung.layer for n in scene.nodes if n.hung.role == "differs"} == {"differences"}
     assert "differences" in scene.shown
 
