@@ -38,6 +38,7 @@ WORDS = {
     "dh": (*TIP,),
     "count": (*TIP,),
     "emit": (*TIP, "--lang", "c", "--output", "OUT", "--force"),
+    "view": (*TIP, "--output", "OUT.html"),
 }  # fmt: skip
 NO_MODEL = {"conform", "list", "warm"}
 posix = pytest.mark.skipif(not os.path.exists("/dev/fd/0"), reason="pipes as POSIX has them")
@@ -71,6 +72,7 @@ def words(crane, tmp_path, poekin):
         "CRANE": crane,
         "OUT": tmp_path / "out",
         "OUT.urdf": tmp_path / "out.urdf",
+        "OUT.html": tmp_path / "out.html",
         "CALIBRATION": tmp_path / "c.toml",
     }
 

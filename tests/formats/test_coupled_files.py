@@ -64,7 +64,11 @@ def test_a_single_statement_may_be_a_text(tmp_path):
         ("coupling = 3", "expected a list of texts, got 3"),
         ('coupling = ["J3 = J2 3"]', "'J3 = J2 3': expected '+' or '-' between readings, got '3'"),
         ('coupling = "J3 = J2"', f"'J3 = J2': {SINGULAR}"),
-        ('coupling = ["J3 J2"]', "'J3 J2': expected '=' after the name of a joint, got 'J2'"),
+        (
+            'coupling = ["J3 J2"]',
+            "'J3 J2': expected '=' after the name of a joint, got 'J2'; "
+            "a statement is a joint as a sum of readings, as in 'J3 = J2 + J3'",
+        ),
     ],
 )
 def test_a_bad_coupling_in_a_file_is_refused_with_the_file(tmp_path, line, message):
