@@ -13,6 +13,8 @@ from poekin.analysis.compare.alignment.hypotheses import make_hypotheses
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.alignment.links import with_front_link, with_link
 from poekin.analysis.compare.compare import compare
+from poekin.analysis.compare.reached import near
+from poekin.formats import dh
 from poekin.groups import se3
 
 TOL = Tolerances(1e-5, np.radians(1e-3))
@@ -104,3 +106,19 @@ def test_a_shift_behind_another_link_is_named_and_sized():
     assert link.startswith("the link between joint 2 ('panda_joint2') and joint 3 ('panda_joint3')")
     assert joint.startswith("joint 6 ('panda_joint6') has an axis that is 1 mm from the other")
     assert result.outcome == "differ"
+
+
+@pytest.mark.parametrize(("turn", "one_arm"), [(0.05, True), (0.2, False)])
+def test_arms_whose_tools_are_turned_by_more_than_a_thirtieth_of_half_a_turn_are_two(turn, one_arm):
+    chain = arm("panda")
+    other = chain.retooled(se3.exp([turn, 0, 0, 0, 0, 0]))
+    _, reading = as_it_stands(chain, other)
+    assert near(chain, other, replace(reading, tool=np.eye(4))) is one_arm
+
+
+def test_the_direction_of_a_slide_is_its_last_three_numbers():
+    chain = dh.to_chain(dh.published("stanford"))
+    lines = as_it_stands(chain, chain)[0].a
+    directions = np.array([axis[lines.part(k)] for k, axis in enumerate(lines.axes)])
+    assert np.array_equal(directions, lines.ways)
+    assert chain.kinds[2] == "prismatic"
