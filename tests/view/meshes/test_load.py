@@ -150,7 +150,11 @@ HOSTILE = {
         "m.glb",
         "cannot be read|no triangles",
     ),
-    "not a number": (stl(TETRAHEDRON * np.nan), "m.stl", "finite vertices|no triangles"),
+    "not a number": (
+        stl(TETRAHEDRON * np.nan),
+        "m.stl",
+        "finite vertices|no triangles|does not exist",
+    ),
     "too far": (stl(TETRAHEDRON * 1e30), "m.stl", "finite vertices within 1e"),
     "a vertex that does not exist": (obj(faces=FACES + 7), "m.obj", "cannot be read|exist"),
     "numbers of no vertex": (
