@@ -9,7 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, ShapeError, UnknownName, join_names, quote, suggest
+from ..errors import (
+    InputError,
+    ShapeError,
+    UnknownName,
+    join_names,
+    quote,
+    safe_repr,
+    suggest,
+)
 from ..groups.arrays import Array, numbers
 from ..groups.objects import labels
 
@@ -36,6 +44,19 @@ def coordinates(
         expected = join_names(names) or "none"
         raise ShapeError(
             f"{what}: expected {len(names)} coordinates on the last axis ({expected}), got shape {array.shape}"
+        )
+    return array
+
+
+def one_configuration(q: Any, names: tuple[str, ...]) -> Array:
+    """One finite configuration (m,) as `coordinates` reads it.
+
+    Raises: what `coordinates` does, and InputError for a batch and what is not finite.
+    """
+    array = coordinates(q, names)
+    if array.ndim != 1 or not np.isfinite(array).all():
+        raise InputError(
+            f"q: expected one finite configuration ({len(names)},), got {safe_repr(array.tolist())}"
         )
     return array
 

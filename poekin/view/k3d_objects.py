@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import MissingExtra
-from .nodes import Cloud, Hung, Label, Node, Polyline, Triangles
+from .nodes import Attachment, Cloud, Label, Node, Polyline, Triangles
 from .palette import CLOUD, color
 from .shapes import merged
 
@@ -34,9 +34,9 @@ class DrawnObject:
     nodes: tuple[Drawable, ...]
 
     @property
-    def hung(self) -> Hung:
+    def attachment(self) -> Attachment:
         """Link, layer and look of all its nodes; the name is the first's."""
-        return self.nodes[0].hung
+        return self.nodes[0].attachment
 
 
 def grouped(nodes: Iterable[Node]) -> list[DrawnObject]:
@@ -87,16 +87,17 @@ def _look(node: Drawable, place: int) -> tuple[object, ...]:
         own = node.width
     elif isinstance(node, Cloud):
         own = place
-    return type(node), own, replace(node.hung, name="")
+    return type(node), own, replace(node.attachment, name="")
 
 
 def _made(k3d: Any, drawn: DrawnObject) -> Any:
     """The object of k3d."""
     first = drawn.nodes[0]
-    look = {"color": color(drawn.hung), "opacity": drawn.hung.opacity}
+    look = {"color": color(drawn.attachment), "opacity": drawn.attachment.opacity}
     if isinstance(first, Triangles):
         vertices, faces = merged(*((n.vertices, n.faces) for n in drawn.nodes))  # type: ignore[union-attr]
-        flat = first.hung.layer == "meshes"  # smooth shading would round their sharp edges off
+        # smooth shading would round the sharp edges of meshes off
+        flat = first.attachment.layer == "meshes"
         shape = {"side": "double", "flat_shading": flat, "roughness": 0.7}
         return k3d.mesh(vertices.astype(np.float32), faces.astype(np.uint32), **shape, **look)
     if isinstance(first, Polyline):
@@ -111,7 +112,7 @@ def _made(k3d: Any, drawn: DrawnObject) -> Any:
         points,
         attribute=np.asarray(first.values, np.float32),
         color_map=[part for x, value in enumerate(CLOUD) for part in (x, *_rgb(value))],
-        opacity=drawn.hung.opacity,
+        opacity=drawn.attachment.opacity,
         **shape,
     )
 

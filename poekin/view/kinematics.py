@@ -34,13 +34,13 @@ def page_tips(model: Model, names: Iterable[str] = ()) -> tuple[SceneTip, ...]:
     its own. Raises: UnknownName for a name that is no link.
     """
     if isinstance(model, Chain):
-        return (SceneTip(model.tip, len(model.kinds), tuple(range(model.dof))),)
-    held = fix_free_joints(model)
-    return tuple(
-        SceneTip(name, model.links.index(name), tuple(map(model.q_names.index, chain.q_names)))
-        for name in dict.fromkeys((*names, *default_tips(model)))
-        for chain in [held.chain(tip=name)]
-    )
+        return (SceneTip(model.tip, len(model.kinds), tuple(range(model.dof)), model.reach),)
+    tips = []
+    for name in dict.fromkeys((*names, *default_tips(model))):
+        chain = tip_chain(model, name)
+        moving = tuple(map(model.q_names.index, chain.q_names))
+        tips.append(SceneTip(name, model.links.index(name), moving, chain.reach))
+    return tuple(tips)
 
 
 def default_tips(robot: Robot) -> tuple[str, ...]:
@@ -103,13 +103,11 @@ def kinematics(model: Model, tips: Iterable[SceneTip]) -> str:
     tips = tuple(tips)
     if isinstance(model, Chain):
         links = EmittedFunction("link_poses", len(model.kinds) + 1, False, _body_program(model))
-        chains = [model] * len(tips)
     else:
         links = links_task(model)
-        held = fix_free_joints(model)
-        chains = [held.chain(tip=tip.name) for tip in tips]
+    chains = (tip_chain(model, tip.name).compile() for tip in tips)
     tasks = [
-        EmittedFunction(f"tip{k}", 1, True, chain.compile().program("hybrid", pose=True))
+        EmittedFunction(f"tip{k}", 1, True, chain.program("hybrid", pose=True))
         for k, chain in enumerate(chains)
     ]
     text = module("an arm of a page", [links, *tasks], _LINES, "")

@@ -1,4 +1,4 @@
-"""Nodes: what a scene draws, each hung on a link of an arm, as data."""
+"""Nodes: what a scene draws, each attached to a link of an arm, as data."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ Rule = Literal["column_v", "column_w", "ellipsoid_v", "ellipsoid_w", "singular",
 
 
 @dataclass(frozen=True, slots=True)
-class Hung:
-    """Place of a node: what it hangs on, and what it stands for.
+class Attachment:
+    """Attachment of a node: the link that it moves with, and what it stands for.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class Hung:
 class Triangles:
     """Triangles: vertices (n, 3), m, and faces (k, 3), numbers of vertices."""
 
-    hung: Hung
+    attachment: Attachment
     vertices: Array
     faces: np.ndarray
 
@@ -77,7 +77,7 @@ class Triangles:
 class Polyline:
     """Line through points (n, 3), m; width in m."""
 
-    hung: Hung
+    attachment: Attachment
     points: Array
     width: float
 
@@ -86,7 +86,7 @@ class Polyline:
 class Cloud:
     """Point cloud (n, 3), m; size in m; values (n,), by which points are coloured, or None."""
 
-    hung: Hung
+    attachment: Attachment
     points: Array
     size: float
     values: Array | None = None
@@ -96,7 +96,7 @@ class Cloud:
 class Label:
     """Words at a point (3,), m, that always face the reader."""
 
-    hung: Hung
+    attachment: Attachment
     point: Array
     text: str
 

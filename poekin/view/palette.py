@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .nodes import Hung, Role
+from .nodes import Attachment, Role
 
 PALETTE: dict[Role, int] = {
     "first": 0xB4BEC9,
@@ -24,8 +24,8 @@ CLOUD = (0x0072B2, 0xE69F00)
 """Colours of the least and the largest value of a cloud, seen on light and on dark."""
 
 
-def color(hung: Hung) -> int:
+def color(attachment: Attachment) -> int:
     """Colour of a node: its own, or its role's."""
-    if hung.color is not None:
-        return hung.color
-    return PALETTE[hung.role]
+    if attachment.color is not None:
+        return attachment.color
+    return PALETTE[attachment.role]

@@ -21,13 +21,15 @@ class Slider:
 
 @dataclass(frozen=True, slots=True)
 class SceneTip:
-    """A link whose pose and Jacobian the page shows: name, number of the link, and the numbers of
-    the coordinates that move it, in the order of the Jacobian's columns.
+    """A link whose pose and Jacobian the page shows: name, number of the link, the numbers of the
+    coordinates that move it, in the order of the Jacobian's columns, and the reach of its chain, m,
+    by which rotations and translations are weighed as `singularity` does.
     """
 
     name: str
     link: int
     coordinates: tuple[int, ...]
+    reach: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)

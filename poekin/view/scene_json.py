@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import math
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from ..errors import escape_unprintable
+from ..results import plain
 from .k3d_objects import DrawnObject
-from .nodes import Cloud, Hung, Label, Polyline, Triangles
+from .nodes import Attachment, Cloud, Label, Polyline, Triangles
 from .palette import PALETTE, color
 from .scene import Scene, SceneArm
 
@@ -38,7 +36,7 @@ def scene_json(scene: Scene, objects: Sequence[DrawnObject]) -> str:
         "choices": scene.choices,
         "tables": scene.tables,
     }
-    text = json.dumps(_plain(contents), allow_nan=False, separators=(",", ":"))
+    text = json.dumps(_escaped(plain(contents)), allow_nan=False, separators=(",", ":"))
     for sign in "<>&":
         text = text.replace(sign, f"\\u{ord(sign):04x}")
     return text
@@ -48,21 +46,21 @@ def _arm(arm: SceneArm) -> dict[str, Any]:
     """An arm without its program, which the page runs."""
     fields = _fields(arm)
     del fields["program"]
-    return fields | {"base": np.ravel(arm.base)}
+    return fields | {"base": arm.base.ravel()}
 
 
 def _object(drawn: DrawnObject) -> dict[str, Any]:
-    names = [n.hung.name for n in drawn.nodes]
+    names = [n.attachment.name for n in drawn.nodes]
     kind = _KINDS[type(drawn.nodes[0])]
-    return {"id": drawn.number, "kind": kind, "names": names} | _hung(drawn.hung)
+    return {"id": drawn.number, "kind": kind, "names": names} | _attachment(drawn.attachment)
 
 
 def _label(node: Label) -> dict[str, Any]:
-    return {"text": node.text, "point": node.point} | _hung(node.hung)
+    return {"text": node.text, "point": node.point} | _attachment(node.attachment)
 
 
-def _hung(hung: Hung) -> dict[str, Any]:
-    return _fields(hung) | {"color": _css(color(hung))}
+def _attachment(attachment: Attachment) -> dict[str, Any]:
+    return _fields(attachment) | {"color": _css(color(attachment))}
 
 
 def _fields(held: Any) -> dict[str, Any]:
@@ -75,20 +73,12 @@ def _css(value: int) -> str:
     return f"#{value:06x}"
 
 
-def _plain(value: Any) -> Any:
-    """Arrays and data classes as lists and dictionaries."""
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
-    if dataclasses.is_dataclass(value):
-        return _plain(_fields(value))
+def _escaped(value: object) -> object:
+    """Plain data with every text escaped."""
     if isinstance(value, dict):
-        return {k: _plain(v) for k, v in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(v) for v in value]
+        return {key: _escaped(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_escaped(item) for item in value]
     if isinstance(value, str):
         return escape_unprintable(value)
-    if isinstance(value, np.generic):
-        return _plain(value.item())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
     return value

@@ -61,7 +61,8 @@ def view(
         `calibrate`.
     q : (m,) array_like or dict, optional
         Configuration of a model, or of model a of a comparison, when the page opens, rad or m; by
-        default zero, or the middle of the limits where zero is beyond them.
+        default zero, or the middle of the limits where zero is beyond them; where an arm is
+        singular there, some of its joints are turned.
     tip : str, optional
         Link of a robot whose Jacobian is shown first.
     meshes : bool, default True

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from poekin.solve.path.path_events import PathEvent
-from poekin.view.nodes import Cloud, Hung, Label, Node, Polyline, Triangles
+from poekin.view.nodes import Attachment, Cloud, Label, Node, Polyline, Triangles
 from poekin.view.scene import (
     PageTable,
     Scene,
@@ -96,7 +96,7 @@ def arm(name: str = "sliding arm", **changes: Any) -> SceneArm:
             Slider("elbow", "rad", -np.inf, np.inf),
             Slider("quill_with_a_very_long_name_out_of_a_file", "m", 0.0, 0.3),
         ),
-        "tips": (SceneTip("tool", 3, (0, 1, 2)), SceneTip("upper arm", 1, (0,))),
+        "tips": (SceneTip("tool", 3, (0, 1, 2), 1.0), SceneTip("upper arm", 1, (0,), 0.5)),
         "base": np.eye(4),
         "factors": np.eye(3),
         "shift": np.zeros(3),
@@ -131,50 +131,54 @@ def scene(name: str = "sliding arm", **changes: Any) -> Scene:
 def nodes(name: str) -> list[Node]:
     """Boxes for links, arrows for axes and columns, an octahedron for the unit sphere."""
     found: list[Node] = [
-        box(Hung("meshes", "first", 0, name=name), [0, 0, 0.13], [0.12, 0.12, 0.26]),
-        box(Hung("meshes", "first", 1, name="upper arm"), [0.3, 0, 0], [0.68, 0.1, 0.08]),
-        box(Hung("meshes", "first", 2, name="forearm"), [0.2, 0, 0.08], [0.48, 0.08, 0.07]),
-        box(Hung("meshes", "joint", 3, name="tool"), [0, 0, 0.1], [0.03, 0.03, 0.3]),
-        Label(Hung("labels", "joint", 1, name="shoulder"), np.array([0, 0, 0.1]), "shoulder"),
-        Label(Hung("labels", "joint", 2, name="elbow"), np.array([0, 0, 0.2]), f"elbow of {name}"),
+        box(Attachment("meshes", "first", 0, name=name), [0, 0, 0.13], [0.12, 0.12, 0.26]),
+        box(Attachment("meshes", "first", 1, name="upper arm"), [0.3, 0, 0], [0.68, 0.1, 0.08]),
+        box(Attachment("meshes", "first", 2, name="forearm"), [0.2, 0, 0.08], [0.48, 0.08, 0.07]),
+        box(Attachment("meshes", "joint", 3, name="tool"), [0, 0, 0.1], [0.03, 0.03, 0.3]),
+        Label(Attachment("labels", "joint", 1, name="shoulder"), np.array([0, 0, 0.1]), "shoulder"),
+        Label(
+            Attachment("labels", "joint", 2, name="elbow"),
+            np.array([0, 0, 0.2]),
+            f"elbow of {name}",
+        ),
     ]
     for link in (1, 2):
         axis = np.array([[0, 0, -0.3], [0, 0, 0.4]])
-        found.append(Polyline(Hung("axes", "joint", link, name="axis"), axis, 0.008))
+        found.append(Polyline(Attachment("axes", "joint", link, name="axis"), axis, 0.008))
     for k in range(3):
-        found.append(arrow(Hung("jacobian", "linear", rule="column_v", index=k)))
-        found.append(arrow(Hung("jacobian", "angular", rule="column_w", index=k)))
-    found.append(ball(Hung("ellipsoids", "linear", rule="ellipsoid_v", opacity=0.35)))
-    found.append(ball(Hung("ellipsoids", "angular", rule="ellipsoid_w", opacity=0.35)))
-    found.append(arrow(Hung("singular", "differs", rule="singular")))
+        found.append(arrow(Attachment("jacobian", "linear", rule="column_v", index=k)))
+        found.append(arrow(Attachment("jacobian", "angular", rule="column_w", index=k)))
+    found.append(ball(Attachment("ellipsoids", "linear", rule="ellipsoid_v", opacity=0.35)))
+    found.append(ball(Attachment("ellipsoids", "angular", rule="ellipsoid_w", opacity=0.35)))
+    found.append(arrow(Attachment("singular", "differs", rule="singular")))
     for k in range(2):
-        ghost = Hung("solutions", "second", 2, choice=k, opacity=0.3)
+        ghost = Attachment("solutions", "second", 2, choice=k, opacity=0.3)
         found.append(box(ghost, [0.2, 0, 0], [0.4, 0.06, 0.05]))
     turn = np.linspace(0, 1.5, 40)
     way = np.stack([np.cos(turn), np.sin(turn), 0 * turn + 0.3], axis=-1)
-    found.append(Polyline(Hung("path", "path"), way, 0.006))
-    found.append(Cloud(Hung("cloud", "linear"), way * 0.8, 0.02, turn))
+    found.append(Polyline(Attachment("path", "path"), way, 0.006))
+    found.append(Cloud(Attachment("cloud", "linear"), way * 0.8, 0.02, turn))
     return found
 
 
-def box(hung: Hung, middle: Any, sizes: Any) -> Triangles:
+def box(attachment: Attachment, middle: Any, sizes: Any) -> Triangles:
     """Box whose eight corners serve three faces each."""
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     halves = [[f[0], f[k], f[k + 1]] for f in faces for k in (1, 2)]
     flat = (np.array(middle) + 0.5 * corners * np.array(sizes))[np.ravel(halves)]
-    return Triangles(hung, flat, np.arange(36).reshape(12, 3))
+    return Triangles(attachment, flat, np.arange(36).reshape(12, 3))
 
 
-def arrow(hung: Hung) -> Triangles:
+def arrow(attachment: Attachment) -> Triangles:
     """Thin pyramid from the origin to (0, 0, 1)."""
     foot = 0.03 * np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
     faces: Any = [[k, (k + 1) % 4, 4] for k in range(4)]
-    return Triangles(hung, np.r_[foot, [[0, 0, 1]]], np.array(faces))
+    return Triangles(attachment, np.r_[foot, [[0, 0, 1]]], np.array(faces))
 
 
-def ball(hung: Hung) -> Triangles:
+def ball(attachment: Attachment) -> Triangles:
     """Octahedron in the unit sphere."""
     corners = np.r_[np.eye(3), -np.eye(3)]
     faces = [[a, b, c] for a in (0, 3) for b in (1, 4) for c in (2, 5)]
-    return Triangles(hung, corners, np.array(faces))
+    return Triangles(attachment, corners, np.array(faces))

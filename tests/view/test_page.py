@@ -8,6 +8,7 @@ import re
 import sys
 import zlib
 from html.parser import HTMLParser
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,8 @@ import pytest
 
 from poekin.errors import FileError, MissingExtra
 from poekin.view import k3d_objects
-from poekin.view.nodes import Hung
-from poekin.view.page import Page, page, page_script
+from poekin.view.nodes import Attachment, Cloud
+from poekin.view.page import SCRIPTS, Page, page, page_script
 from poekin.view.scene_json import scene_json
 from tests.view import sliding_arm
 
@@ -121,11 +122,12 @@ def test_the_json_has_all_but_geometry_and_no_number_that_json_has_not(made):
 
 def test_nodes_that_move_and_look_alike_are_one_object():
     boxes = [
-        sliding_arm.box(Hung("meshes", "first", 1, name=n), [0, 0, 0], [1, 1, 1]) for n in "ab"
+        sliding_arm.box(Attachment("meshes", "first", 1, name=n), [0, 0, 0], [1, 1, 1])
+        for n in "ab"
     ]
-    other = sliding_arm.box(Hung("meshes", "first", 2), [0, 0, 0], [1, 1, 1])
+    other = sliding_arm.box(Attachment("meshes", "first", 2), [0, 0, 0], [1, 1, 1])
     objects = k3d_objects.grouped([boxes[0], other, boxes[1]])
-    assert [[n.hung.name for n in one.nodes] for one in objects] == [["a", "b"], [""]]
+    assert [[n.attachment.name for n in one.nodes] for one in objects] == [["a", "b"], [""]]
     scene = sliding_arm.scene(nodes=(*boxes, other))
     drawn = geometry(page(scene).html)
     assert [len(one["vertices"]) for one in drawn] == [2 * 36 * 3, 36 * 3]
@@ -143,7 +145,7 @@ def test_a_title_of_two_hundred_characters_is_whole_and_a_longer_one_is_cut(leng
 @pytest.mark.parametrize(("layer", "flat"), [("meshes", True), ("skeleton", False)])
 def test_meshes_keep_their_edges_and_bones_are_round_from_both_sides(layer, flat):
     msgpack = pytest.importorskip("msgpack")
-    body = sliding_arm.box(Hung(layer, "first", 1), [0, 0, 0], [1, 1, 1])
+    body = sliding_arm.box(Attachment(layer, "first", 1), [0, 0, 0], [1, 1, 1])
     (packed,) = re.findall("var data = '([^']*)'", page(sliding_arm.scene(nodes=(body,))).html)
     (one,) = msgpack.unpackb(zlib.decompress(base64.b64decode(packed)))["objects"]
     assert (one["flat_shading"], one["side"]) == (flat, "double")
@@ -180,3 +182,50 @@ def test_no_name_of_the_page_s_script_is_declared_twice():
     assert len(declared) > 80
     assert {name for name in declared if declared.count(name) > 1} == set()
     assert not re.search(r"^(import|export)\b", page_script(), re.MULTILINE)
+
+
+def packed(html: str) -> dict[str, Any]:
+    """What k3d put into a page."""
+    msgpack = pytest.importorskip("msgpack")
+    (data,) = re.findall("var data = '([^']*)'", html)
+    return msgpack.unpackb(zlib.decompress(base64.b64decode(data)))
+
+
+def test_the_page_has_its_own_style_and_every_script(made):
+    web = Path(k3d_objects.__file__).with_name("web")
+    assert (web / "page.css").read_text(encoding="utf-8") in made.html
+    files = {path.relative_to(web).with_suffix("").as_posix() for path in web.rglob("*.js")}
+    assert sorted(SCRIPTS) == sorted(files)
+
+
+def test_the_canvas_is_bare_and_the_camera_is_the_page_s_own(made):
+    plot = packed(made.html)["plot"]
+    wanted = {
+        "grid_visible": False,
+        "menu_visibility": False,
+        "camera_auto_fit": False,
+        "camera_mode": "orbit",
+        "camera_up_axis": "z",
+        "camera_fov": 35.0,
+        "axes_helper": 0.0,
+        "colorbar_object_id": 0,
+        "lighting": 1.4,
+    }
+    named = {re.sub("[A-Z]", lambda m: f"_{m[0].lower()}", k): v for k, v in plot.items()}
+    assert {name: named[name] for name in wanted} == wanted
+
+
+def test_the_points_of_a_cloud_are_coloured_from_blue_to_orange():
+    cloud = Cloud(Attachment("cloud", "first", 0), np.eye(3), 0.25, np.array([1.0, 2, 3]))
+    plain = Cloud(Attachment("cloud", "path", 0), np.eye(3), 0.25)
+    with_values, without = packed(page(sliding_arm.scene(nodes=(cloud, plain))).html)["objects"]
+    scale = np.frombuffer(with_values["color_map"]["data"], np.float32)
+    wanted = [0, 0, 0x72 / 255, 0xB2 / 255, 1, 0xE6 / 255, 0x9F / 255, 0]
+    np.testing.assert_allclose(scale, wanted, rtol=0, atol=1e-7)
+    for one in (with_values, without):
+        assert (one["point_size"], one["shader"]) == (0.25, "3d")
+    assert without["color"] == 0x0072B2
+
+
+def test_a_colour_is_split_into_its_three_bytes():
+    assert k3d_objects._rgb(0xFF0103) == (1, 1 / 255, 3 / 255)

@@ -172,3 +172,9 @@ def test_merged_pieces_keep_their_faces():
     vertices, faces = shapes.merged(*pieces)
     assert faces.tolist() == [[0, 1, 2], [3, 4, 5], [6, 7, 8]]
     assert vertices[faces[2]].tolist() == (3 * np.eye(3)).tolist()
+
+
+def test_a_capsule_between_equal_points_is_a_sphere_around_them():
+    ball = shapes.capsule([1, 2, 3], [1, 2, 3], 0.5)
+    distances = np.linalg.norm(ball.vertices - [1, 2, 3], axis=1)
+    np.testing.assert_allclose(distances, 0.5, rtol=1e-14)

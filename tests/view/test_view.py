@@ -105,3 +105,8 @@ def test_neither_poekin_nor_its_view_loads_k3d_before_a_page_is_made():
     code = "import sys, poekin, poekin.view.view; print({'k3d', 'trimesh'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
+
+
+def test_an_option_that_does_not_go_with_a_page_says_of_which():
+    with pytest.raises(InputError, match=r"^cloud: no option of a page of 'Comparison'$"):
+        pk.view(KINDS["comparison"](), cloud=3)

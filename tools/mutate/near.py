@@ -34,6 +34,7 @@ _SCENES = (
     "view/arm_scene view/comparison_scene view/calibration_scene view/path_scene"
     " view/singularity_scene view/solution_scenes view/exaggerated"
 )
+_DRAWN = "view/drawn view/scale"
 _SLOW_LEAVES = (  # left for the end
     "view/kinematics::test_links_and_jacobians_of_all_leaves_of_example_robot_data_are_the_robots"
 )
@@ -94,16 +95,20 @@ NEAR = {
     "solve/calibrate": "solve/cross_validation own solve/refusals solve/fitting solve/toml_io",
     "solve/calibration": "solve/html_report solve/calibrate solve/toml_io solve/fitting",
     "solve/losses": "solve/noise solve/fitting solve/refit solve/exchange",
-    "view/k3d_objects view/page view/palette view/scene_json": "view/page view/page_parts",
-    "view/kinematics": f"view/arm_scene own --deselect={_SLOW_LEAVES}",
-    "view/nodes view/scene view/shapes": f"view/shapes {_SCENES}",
-    "view/arm view/arm_parts/ view/stage": f"{_SCENES} cli/view",
-    "view/scenes/calibration": "view/calibration_scene",
-    "view/scenes/comparison": "view/comparison_scene view/view",
-    "view/scenes/path": "view/path_scene",
-    "view/scenes/singular": "view/singularity_scene",
-    "view/scenes/solutions view/scenes/targets": "view/solution_scenes view/path_scene",
-    "view/exaggerated view/overlay": f"view/exaggerated {_SCENES}",
+    "view/k3d_objects view/page view/palette view/scene_json": (
+        "view/page view/drawn view/scene view/page_parts"
+    ),
+    "view/mesh_nodes": f"own {_DRAWN} view/arm_scene",
+    "view/kinematics": f"view/arm_scene {_DRAWN} own --deselect={_SLOW_LEAVES}",
+    "view/nodes view/scene view/shapes": f"view/shapes view/scene {_DRAWN} {_SCENES}",
+    "view/arm view/arm_parts/ view/stage": f"{_DRAWN} {_SCENES} view/scene cli/view",
+    "view/regular": f"own {_DRAWN}",
+    "view/scenes/calibration": f"view/calibration_scene {_DRAWN}",
+    "view/scenes/comparison": f"view/comparison_scene {_DRAWN} view/view",
+    "view/scenes/path": f"view/path_scene {_DRAWN}",
+    "view/scenes/singular": f"view/singularity_scene {_DRAWN}",
+    "view/scenes/solutions view/scenes/targets": f"view/solution_scenes {_DRAWN} view/path_scene",
+    "view/exaggerated view/overlay": f"view/exaggerated {_DRAWN} {_SCENES}",
     "view/view": "own",
     "cli/draw": "own cli/compare",
     "cli/view": "own",
@@ -113,7 +118,7 @@ NEAR = {
     "checks": "own model/refusals solve/refusals solve/choose analysis/axes",
     "solve/reweighted solve/flatness": "own solve/initial_guess_parts solve/initial_guess",
     "solve/points solve/poses": _POINTS,
-    "solve/result solve/summary": "solve/calibrate solve/html_report solve/toml_io",
+    "solve/calibration/result solve/summary": "solve/calibrate solve/html_report solve/toml_io",
     "solve/problem": f"{_FRAMES} solve/refusals solve/fitting solve/calibrate solve/choose",
     "analysis/axes analysis/shapes": _AXES,
     "analysis/axis_lines": f"own analysis/lines {_COMPARES}",

@@ -37,11 +37,11 @@ class ChainPictures(ChainData):
         MissingExtra
             If Matplotlib (extra `report`) is not installed.
         ShapeError
-            If q is no single configuration.
+            If q has another number of coordinates.
         UnknownName
             If a name is no coordinate.
         InputError
-            If values cannot be used.
+            If q is no single finite configuration.
 
         Notes
         -----

@@ -9,7 +9,7 @@ import numpy as np
 from ... import svg
 from ...groups.arrays import Array
 from ..chain_data import ChainData
-from ..checks import one_pose
+from ..coordinates import one_configuration
 from ..kinematics import pose_jacobian
 
 AXES_COLORS = ("#D55E00", "#009E73", "#0072B2")
@@ -19,10 +19,11 @@ _OF_KIND = {"revolute": "-.", "prismatic": ":", "helical": "--"}
 
 def plot(chain: ChainData, q: Any, size: tuple[float, float]) -> Any:
     """Figure of Matplotlib; q: configuration (m,) or None for zero."""
-    if q is None:
-        q = np.zeros(chain.dof)
-    frames = pose_jacobian.joint_poses(chain, q)
-    tool = one_pose(pose_jacobian.fk(chain, q), "f(q)")
+    values = np.zeros(chain.dof)
+    if q is not None:
+        values = one_configuration(q, chain.q_names)
+    frames = pose_jacobian.joint_poses(chain, values)
+    tool = pose_jacobian.fk(chain, values)
     points = np.array([np.zeros(3), *frames[:, :3, 3], tool[:3, 3]])
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     half = max(np.ptp(points, axis=0).max() / 2, 0.05)

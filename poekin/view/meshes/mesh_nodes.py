@@ -11,7 +11,7 @@ from ...formats.visuals.of_robot import visuals_of
 from ...formats.visuals.visual import LeftOut, Visual
 from ...model.robot import Robot
 from .. import shapes
-from ..nodes import Hung, Triangles
+from ..nodes import Attachment, Triangles
 from .find import MeshFinder
 from .kept import parts_of
 from .load import FARTHEST, MeshPart, merged, rgb
@@ -78,8 +78,8 @@ def mesh_nodes(robot: Robot) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]
     nodes = []
     for (link, color, opacity), group in pieces.items():
         number = robot.links.index(link)
-        hung = Hung("meshes", "first", number, name=link, color=color, opacity=opacity)
-        nodes.append(Triangles(hung, *shapes.merged(*group)))
+        attachment = Attachment("meshes", "first", number, name=link, color=color, opacity=opacity)
+        nodes.append(Triangles(attachment, *shapes.merged(*group)))
     if moved:
         words = f"{sum(counts)} triangles are drawn as {sum(len(node.faces) for node in nodes)}"
         why = f"no vertex is more than {moved * 1e3:.2g} mm off"

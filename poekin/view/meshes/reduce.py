@@ -45,7 +45,7 @@ def reduced(
         count = len(found[1])
         if count <= limit:
             return *found, longest / cells * 3**0.5
-        cells = min(0.95 * cells * (limit / count) ** 0.5, 0.95 * cells)
+        cells *= 0.95 * (limit / count) ** 0.5
 
 
 def _clustered(

@@ -23,11 +23,12 @@ from ..scene import Scene, SceneArm, SceneTip, Slider
 from ..shapes import transformed
 from .arm_parts.axes import axis_nodes, frame_nodes, label_nodes, screw_table
 from .arm_parts.geometry import ArmGeometry, beyond, opening_q, widened
-from .arm_parts.jacobian import jacobian_nodes, singular_words
+from .arm_parts.jacobian import HANDLE, jacobian_nodes, singular_words
 from .arm_parts.missing import left_out_words, stand_ins
 from .arm_parts.of_chain import chain_geometry
 from .arm_parts.of_robot import robot_geometry
 from .arm_parts.reach import reach_cloud
+from .arm_parts.regular import is_one_arm, opening_words, regular_opening
 from .arm_parts.skeleton import glyph_radii, skeleton_nodes
 
 CLOUD = "Cloud: {} points that {} reaches, blue to orange by the manipulability of its translation."
@@ -53,8 +54,9 @@ def arm_scene(
         Model to show.
     q : (m,) array_like or dict, optional
         Configuration of all coordinates when the page opens, rad or m. Without it each is zero
-        where that is within its limits, else in their middle. A slider reaches a value of q
-        that is beyond the limits, and a sentence says so.
+        where that is within its limits, else in their middle; where an arm is singular there,
+        some of its joints are turned, and a sentence says so. A slider reaches a value of q that
+        is beyond the limits, and a sentence says so.
     tip : str, optional
         Link whose Jacobian is shown first, of a robot; the page offers the others beside it.
     meshes : bool, default True
@@ -89,7 +91,7 @@ def arm_scene(
         raise InputError(f"cloud: expected at most {MOST_CLOUD} points, got {cloud}")
     tips = page_tips(model, _asked(model, tip))
     arm = arm_geometry(model, tips)
-    opening = opening_q(arm.sliders, q)
+    opening, turned = _opening(model, arm, tips, q)
     bodies: tuple[Triangles, ...] = ()
     left_out: tuple[LeftOut, ...] = ()
     if meshes and isinstance(model, Robot):
@@ -101,8 +103,9 @@ def arm_scene(
         nodes += stand_ins(arm, left_out, bodies, size)
     columns = max(len(tip.coordinates) for tip in tips)
     if columns:
-        nodes += jacobian_nodes(columns, size)
-    words = _model_words(model, arm)
+        radii = glyph_radii(arm, opening, size)
+        nodes += jacobian_nodes(columns, min(HANDLE * size, float(radii.max(initial=np.inf))))
+    words = [*_model_words(model, arm), *turned]
     reached = widened(arm.sliders, opening[None])
     names = beyond(arm.sliders, reached)
     if names:
@@ -113,7 +116,7 @@ def arm_scene(
         shown.add("cloud")
         nodes.append(reach_cloud(chain, cloud, size))
         words.append(CLOUD.format(cloud, quote(chain.tip)))
-    if chain.dof:
+    if chain.dof and not turned:
         words += singular_words(chain, opening[list(tips[0].coordinates)])
     return Scene(
         title=arm.name,
@@ -141,7 +144,7 @@ def arm_size(arm: ArmGeometry, q: Array, bodies: Iterable[Triangles] = ()) -> fl
     for body in bodies:
         bounds = np.stack([body.vertices.min(axis=0), body.vertices.max(axis=0)], axis=-1)
         corners = np.stack(np.meshgrid(*bounds), axis=-1).reshape(-1, 3)
-        points.append(transformed(corners, T[body.hung.link]))
+        points.append(transformed(corners, T[body.attachment.link]))
     diagonal = float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
     return diagonal if diagonal > POINT else 1.0
 
@@ -177,6 +180,20 @@ def scene_arm(
         factors=np.eye(m),
         shift=np.zeros(m),
     )
+
+
+def _opening(
+    model: Model,
+    arm: ArmGeometry,
+    tips: tuple[SceneTip, ...],
+    q: ArrayLike | Mapping[str, float] | None,
+) -> tuple[Array, list[str]]:
+    """Configuration that the page opens with, and a sentence on it where it is none to expect."""
+    given = opening_q(arm.sliders, q)
+    if q is not None or not tips[0].coordinates or not is_one_arm(tips):
+        return given, []
+    opening = regular_opening(arm, tip_chain(model, tips[0].name), tips[0].coordinates, given)
+    return opening, opening_words(arm, tips[0].name, given, opening)
 
 
 def _asked(model: Model, tip: str | None) -> tuple[str, ...]:

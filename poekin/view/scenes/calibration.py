@@ -12,10 +12,10 @@ from ...groups.arrays import Array
 from ...solve.calibration.calibration import Calibration
 from ...solve.calibration.model.residual_vectors import ResidualVectors
 from ...solve.calibration.report import changes
-from ..nodes import Cloud, Hung, Node, Role, Triangles
+from ..nodes import Attachment, Cloud, Node, Role, Triangles
 from ..scene import PageTable, Scene
 from ..shapes import arrow, merged
-from .arm import arm_scene
+from .arm import arm_scene, arm_size
 from .arm_parts.of_chain import chain_geometry
 from .stage import evenly
 from .two_arms.exaggerated import STEPS, exaggerated, visible_factor
@@ -43,8 +43,7 @@ def calibration_scene(found: Calibration) -> Scene:
         says; a table of the corrections. Of a calibration out of a file without residuals.
     """
     vectors = found.vectors
-    q = None if vectors is None or not len(vectors.q) else vectors.q[0]
-    scene = arm_scene(found.nominal, q=q)
+    scene = arm_scene(found.nominal, q=_widest(found))
     side_by_side = compare(found.nominal, found.chain, strict=True)
     second = exaggerated(side_by_side)
     own = side_by_side.b
@@ -73,6 +72,15 @@ def calibration_scene(found: Calibration) -> Scene:
     )
 
 
+def _widest(found: Calibration) -> Array | None:
+    """The measured configuration, of some, at which the arm reaches farthest; None where there is none."""
+    if found.vectors is None or not len(found.vectors.q):
+        return None
+    q = found.vectors.q[evenly(len(found.vectors.q), MOST)]
+    arm = chain_geometry(found.nominal)
+    return q[np.argmax([arm_size(arm, row) for row in q])]
+
+
 def correction_table(found: Calibration) -> PageTable:
     """Tilt and shift of each axis that could move, with how well they are known."""
     rows = tuple(changes.row(joint) for joint in changes.joints(found))
@@ -84,7 +92,8 @@ def _residuals(vectors: ResidualVectors, k: float, size: float) -> Iterator[Node
     chosen = evenly(len(vectors.places), MOST)
     measured = (vectors.places - vectors.after)[chosen]
     lengths = np.linalg.norm(vectors.before[chosen], axis=1)
-    yield Cloud(Hung("cloud", "second", 0, name="measured points"), measured, 0.006 * size, lengths)
+    points = Attachment("cloud", "second", 0, name="measured points")
+    yield Cloud(points, measured, 0.006 * size, lengths)
     of_arms: tuple[tuple[Array, Role, str], ...] = (
         (vectors.before, "differs", "residuals of the nominal arm"),
         (vectors.after, "second", "residuals of the calibrated arm"),
@@ -92,7 +101,7 @@ def _residuals(vectors: ResidualVectors, k: float, size: float) -> Iterator[Node
     for errors, role, name in of_arms:
         arrows = _arrows(measured, k * errors[chosen], size)
         if arrows is not None:
-            yield replace(arrows, hung=Hung("cloud", role, 0, name=f"{name} × {k:g}"))
+            yield replace(arrows, attachment=Attachment("cloud", role, 0, name=f"{name} × {k:g}"))
 
 
 def _arrows(starts: Array, ways: Array, size: float) -> Triangles | None:
@@ -107,4 +116,4 @@ def _arrows(starts: Array, ways: Array, size: float) -> Triangles | None:
         surfaces.append(one.placed(start, way / length))
     if not surfaces:
         return None
-    return Triangles(Hung("cloud", "second", 0), *merged(*surfaces))
+    return Triangles(Attachment("cloud", "second", 0), *merged(*surfaces))

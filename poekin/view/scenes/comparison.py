@@ -70,10 +70,13 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
     nodes = second_nodes(second, geometry, _sentences(found), set(_moved_ends(found)), size)
     lines = found.summary().splitlines()
     words = [lines[-1], LEGEND, *lines[:-1]]
+    left = len(words) - MOST_WORDS
+    if left > 0:
+        words[MOST_WORDS:] = [f"{left} more: summary() of the comparison, and `poekin compare`."]
     return replace(
         scene,
         title=title or f"Two models of one arm: {found.a.base} → {found.a.tip}",
-        words=tuple(words[:MOST_WORDS]),
+        words=tuple(words),
         arms=(*scene.arms, arm),
         nodes=(*scene.nodes, *nodes),
         shown=frozenset({"skeleton", "axes", "differences", "frames"}),

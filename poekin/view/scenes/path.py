@@ -74,21 +74,21 @@ def _way(path: PathResult, points: Array, stage: Stage) -> Iterator[Node]:
     """The way of the tip, without what is no number, and what is marked on it."""
     reached = np.isfinite(points).all(axis=1)
     width = 0.005 * stage.size
-    yield Polyline(stage.hung("path", "path", "way of the tip"), points[reached], width)
+    yield Polyline(stage.attachment("path", "path", "way of the tip"), points[reached], width)
     for event in path.events:
-        hung = stage.hung("path", "marked", event.text)
+        attachment = stage.attachment("path", "marked", event.text)
         stretch = points[event.first : event.last + 1]
         stretch = stretch[np.isfinite(stretch).all(axis=1)]
         if not len(stretch):
             continue
         if len(stretch) > 1:
-            yield Polyline(hung, stretch, 2.5 * width)
+            yield Polyline(attachment, stretch, 2.5 * width)
         else:
             ball = sphere(2.5 * width, 16)
-            yield Triangles(hung, ball.vertices + stretch[0], ball.faces)
+            yield Triangles(attachment, ball.vertices + stretch[0], ball.faces)
         if event.kind == "switch":
             words = f"branch changes before pose {event.first}"
-            yield Label(hung, stretch[0] + 0.03 * stage.size, words)
+            yield Label(attachment, stretch[0] + 0.03 * stage.size, words)
 
 
 def _motion(path: PathResult, known: np.ndarray, stage: Stage) -> SceneMotion:

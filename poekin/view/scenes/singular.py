@@ -43,7 +43,7 @@ def singularity_scene(found: Singularity, robot: Robot | None = None) -> Scene:
     lost = found.singular_subspace if found.singular else found.singular_direction[None]
     arrows = [node for twist in lost for node in _arrows(twist, found.length, tip, stage)]
     # in place of the page's own arrow, which is of what the tip moves worst as it stands
-    own = [node for node in stage.scene.nodes if node.hung.rule != "singular"]
+    own = [node for node in stage.scene.nodes if node.attachment.rule != "singular"]
     stage = stage._replace(scene=replace(stage.scene, nodes=tuple(own), words=()))
     title = f"Singularity of {found.chain.tip} in {found.chain.base}"
     return stage.with_result(title, [found.summary()], arrows, "singular")
@@ -60,8 +60,8 @@ def _arrows(twist: Array, length: float, tip: Array, stage: Stage) -> Iterator[N
         share = float(np.linalg.norm(part))
         if share < SMALL:
             continue
-        hung = stage.hung("singular", role, f"{label}: {words}")
+        attachment = stage.attachment("singular", role, f"{label}: {words}")
         length_drawn = LENGTH * stage.size * share
         way = part / share
-        yield Triangles(hung, *arrow().scaled(length_drawn).placed(tip, way))
-        yield Label(hung, tip + 1.1 * length_drawn * way, label)
+        yield Triangles(attachment, *arrow().scaled(length_drawn).placed(tip, way))
+        yield Label(attachment, tip + 1.1 * length_drawn * way, label)

@@ -12,7 +12,7 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.robot import Robot
 from ...solve.ik_all.all_solutions import AllSolutions
-from ..nodes import Role, Triangles
+from ..nodes import Triangles
 from ..scene import Scene, SceneChoice
 from ..shapes import transformed
 from .arm_parts.of_chain import chain_geometry
@@ -45,9 +45,9 @@ def solutions_scene(found: AllSolutions, robot: Robot | None = None) -> Scene:
         If the result holds no chain, or is of several targets, or the target is not finite.
     """
     chain, target = asked_of(found)
-    if found.count.ndim:
+    if found.counts.ndim:
         raise InputError(
-            f"view: all solutions of one target expected, got those of {found.count.size}"
+            f"view: all solutions of one target expected, got those of {found.counts.size}"
         )
     if not np.isfinite(target).all():
         raise InputError(f"view: a finite target expected, got {found.summary()}")
@@ -77,9 +77,10 @@ def _ghosts(chain: Chain, q: Array, stage: Stage) -> Iterator[Triangles]:
     for k, row in enumerate(q):
         T = arm.poses(row)
         for node in bones:
-            role: Role = "second" if node.hung.role == "first" else node.hung.role
-            hung = stage.hung("solutions", role, f"solution {k + 1}", choice=k, opacity=GHOST)
-            yield Triangles(hung, transformed(node.vertices, T[node.hung.link]), node.faces)
+            words = f"solution {k + 1}"
+            ghost = stage.attachment("solutions", "second", words, choice=k, opacity=GHOST)
+            vertices = transformed(node.vertices, T[node.attachment.link])
+            yield Triangles(ghost, vertices, node.faces)
 
 
 def _words(found: AllSolutions, chain: Chain, k: int) -> str:

@@ -1,5 +1,5 @@
 """Stage of a result: the scene of its arm, by itself or as part of its robot, and where the result's
-own nodes are hung.
+own nodes are attached.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.robot import Robot
-from ..nodes import Hung, Layer, Node, Role
+from ..nodes import Attachment, Layer, Node, Role
 from ..scene import Scene
 from .arm import arm_scene
 from .arm_parts.geometry import beyond, opening_q, widened
@@ -49,7 +49,7 @@ class Stage(NamedTuple):
         every[..., list(self.sliders)] = q
         return every
 
-    def hung(
+    def attachment(
         self,
         layer: Layer,
         role: Role,
@@ -57,9 +57,9 @@ class Stage(NamedTuple):
         *,
         choice: int | None = None,
         opacity: float = 1.0,
-    ) -> Hung:
+    ) -> Attachment:
         """Place of a node whose points are in the frame of the chain's base."""
-        return Hung(layer, role, self.base, name=name, choice=choice, opacity=opacity)
+        return Attachment(layer, role, self.base, name=name, choice=choice, opacity=opacity)
 
     def with_result(
         self,

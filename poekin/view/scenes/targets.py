@@ -27,7 +27,7 @@ def pose_nodes(stage: Stage, poses: Array, length: float, name: str) -> list[Nod
     """Frames at poses (n, 4, 4) in the chain's base, m, as arrows of a length."""
     names = [name] if len(poses) == 1 else [f"{name} {k}" for k in range(len(poses))]
     return [
-        Triangles(stage.hung("path", role, words), *axis)
+        Triangles(stage.attachment("path", role, words), *axis)
         for words, pose in zip(names, poses, strict=True)
         for role, axis in zip(XYZ, frame_axes(pose, length), strict=True)
     ]
@@ -38,7 +38,7 @@ def target_nodes(stage: Stage, poses: Array) -> list[Node]:
     nodes = pose_nodes(stage, poses, 0.1 * stage.size, "target")
     if len(poses) == 1:
         place = poses[0, :3, 3] + 0.03 * stage.size
-        nodes.append(Label(stage.hung("path", "path", "target"), place, "target"))
+        nodes.append(Label(stage.attachment("path", "path", "target"), place, "target"))
     return nodes
 
 

@@ -12,7 +12,11 @@ const ARROW_V = 0.35; // length of an arrow of 1 m/rad, m, and of half an axis
 const ARROW_W = 0.2; // of the scene: length of an arrow of 1 rad/rad
 const MOST = 0.25; // of the scene: longest half axis of an ellipsoid
 const SPIN = 0.25; // of an arrow: half axis of the angular ellipsoid, which is inside the linear one as a rule
-const BAR = 12; // pixels above the buttons
+const BAR = 12; // pixels below the buttons, and at the lower edge
+const MARGIN = 44; // pixels at each side
+const FROM = [1, -1.25, 0.65]; // from the arm to the camera
+const GLOW = 0.5; // of its colour, that a dark object has in the dark without any light
+const DIM = 0.02; // of white, likewise
 const CLEAR = 0.3; // opacity of meshes that are looked through
 
 // Lengths at which velocities of a tip are drawn: m per m/s at one rad/s or m/s, and per rad/s.
@@ -80,18 +84,18 @@ export function rulePose(node, tip, scene, scales) {
         case "ellipsoid_w":
             return thickened(ellipsoid(T, J, "rotation", SPIN * scales.w), THIN * scene.size, MOST * scene.size);
         case "singular":
-            return arrowMatrix(T, singularVector(J, tip, scene), 1.5 * scales.w);
+            return arrowMatrix(T, singularVector(J, tip), 1.5 * scales.w);
         default:
             return T; // "tip" and "target"
     }
 }
 
 // The direction that the tip moves worst: the translation of the twist, or its rotation, whichever
-// is larger at the length of the scene.
-function singularVector(J, tip, scene) {
-    const { twist } = singularDirection(J, tip.part, tip.rank, scene.size);
+// is larger at the tip's reach.
+function singularVector(J, { part, rank, reach }) {
+    const { twist } = singularDirection(J, part, rank, reach);
     const w = twist.slice(0, 3);
-    const v = twist.slice(3).map((x) => x / scene.size);
+    const v = twist.slice(3).map((x) => x / reach);
     return unitVector(Math.hypot(...v) >= Math.hypot(...w) ? v : w);
 }
 
@@ -176,21 +180,50 @@ export class Drawing {
         this.K.render();
     }
 
-    // A camera that sees all that is shown below the buttons, from the front, a little from above.
+    // A camera as near as it can be to see all that is shown below the buttons, from the front, a
+    // little from above.
     fit() {
         const { THREE } = this.K.Provider;
-        const { center, radius } = this.bounds(THREE, true).getBoundingSphere(new THREE.Sphere());
-        const { camera, height } = this.K.getWorld();
-        const bar = (document.getElementById("poekin-toolbar")?.offsetHeight ?? 0) + BAR;
+        const { camera, width, height } = this.K.getWorld();
+        const back = new THREE.Vector3(...unitVector(FROM));
+        const right = new THREE.Vector3(0, 0, 1).cross(back).normalize();
+        const up = new THREE.Vector3().crossVectors(back, right);
+        const seen = this.outline(THREE).map((p) => [p.dot(right), p.dot(up), p.dot(back)]);
         const half = Math.tan((camera.fov * Math.PI) / 360);
-        const distance = radius / Math.sin(Math.atan(half * Math.min(camera.aspect, 1 - bar / height)));
-        const way = new THREE.Vector3(...unitVector([1, -1.25, 0.65]));
-        const up = new THREE.Vector3(0, 0, 1).addScaledVector(way, -way.z).normalize();
-        const at = center.addScaledVector(up, (distance * half * bar) / height);
-        const eye = way.multiplyScalar(distance).add(at);
+        const bar = (document.getElementById("poekin-toolbar")?.offsetHeight ?? 0) + BAR;
+        const aside = half * camera.aspect * (1 - (2 * Math.min(MARGIN, 0.1 * width)) / width);
+        const slopes = { right: aside, left: aside, above: half * (1 - (2 * bar) / height), below: half * (1 - (2 * BAR) / height) };
+        const [x, y, z] = framed(seen, slopes, 0.1 * this.state.scene.size);
+        const eye = back.clone().multiplyScalar(z).addScaledVector(right, x).addScaledVector(up, y);
+        const middle = seen.reduce((sum, p) => sum + p[2], 0) / seen.length;
+        const at = eye.clone().addScaledVector(back, middle - z);
         this.K.setCamera([...eye.toArray(), ...at.toArray(), 0, 0, 1]);
         this.fitted = camera.position.clone();
         this.K.render();
+    }
+
+    // Points in the world whose hull holds all that is shown: corners of the boxes around objects, each
+    // in the object's own axes, all points of clouds, and the points of labels.
+    outline(THREE) {
+        const { objects, labels } = this.state.scene;
+        const points = [];
+        objects.forEach((node, k) => {
+            const object = this.three[k];
+            if (!object.visible || object.matrix.determinant() === 0) {
+                return;
+            }
+            object.updateWorldMatrix(true, true);
+            object.traverse((part) => {
+                if (part.geometry !== undefined) {
+                    const own = node.kind === "cloud" ? vertices(part.geometry, THREE) : boxCorners(part.geometry, THREE);
+                    points.push(...own.map((p) => p.applyMatrix4(part.matrixWorld)));
+                }
+            });
+        });
+        labels.filter((label) => this.isShown(label)).forEach((label) => {
+            points.push(new THREE.Vector3(...moved(this.poseOf(label), label.point)));
+        });
+        return points.length > 0 ? points : corners(this.bounds(THREE), THREE);
     }
 
     // Sees the whole in a window of another size, where the reader has not moved the camera.
@@ -223,6 +256,7 @@ export class Drawing {
         const { THREE } = this.K.Provider;
         const world = this.K.getWorld();
         this.K.setClearColor(dark ? 0x16191d : 0xf4f6f8);
+        this.three.forEach((object) => glow(object, dark));
         if (this.ground !== null) {
             world.scene.remove(this.ground);
         }
@@ -239,10 +273,62 @@ export class Drawing {
     }
 }
 
+// Where a camera that looks along -z has to be, [x, y, z], to see points [x, y, z] in its own axes as
+// large as it can between the planes of slopes {right, left, above, below}, none nearer than `near`:
+// a point is seen where its distance to the view's axis is at most slope times its depth.
+export function framed(points, { right, left, above, below }, near) {
+    const most = [-Infinity, -Infinity, -Infinity, -Infinity, -Infinity];
+    for (const [x, y, z] of points) {
+        [x + right * z, left * z - x, y + above * z, below * z - y, z].forEach((value, k) => {
+            most[k] = Math.max(most[k], value);
+        });
+    }
+    const [a, b, c, d, front] = most;
+    const z = Math.max((a + b) / (right + left), (c + d) / (above + below), front + near);
+    return [(a - b + (left - right) * z) / 2, (c - d + (below - above) * z) / 2, z];
+}
+
+function vertices({ attributes }, THREE) {
+    const { position } = attributes;
+    return Array.from({ length: position.count }, (_, k) => new THREE.Vector3().fromBufferAttribute(position, k));
+}
+
+function boxCorners(geometry, THREE) {
+    if (geometry.boundingBox === null) {
+        geometry.computeBoundingBox();
+    }
+    return corners(geometry.boundingBox, THREE);
+}
+
+function corners({ min, max }, THREE) {
+    return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new THREE.Vector3(x, y, z))));
+}
+
+// A point moved by a pose.
+export function moved(T, [x, y, z]) {
+    return [
+        T[0] * x + T[1] * y + T[2] * z + T[3],
+        T[4] * x + T[5] * y + T[6] * z + T[7],
+        T[8] * x + T[9] * y + T[10] * z + T[11],
+    ];
+}
+
 // The largest of 1, 2, 5, times a power of ten, that is not above x.
 export function roundLength(x) {
     const power = 10 ** Math.floor(Math.log10(x));
     return ([5, 2].find((k) => k * power <= x) ?? 1) * power;
+}
+
+// Lets an object shine a little in the dark, where what is black or blue could not be seen.
+function glow(object, dark) {
+    object.traverse(({ material }) => {
+        if (material?.emissive !== undefined) {
+            const { r, g, b } = material.color;
+            const share = GLOW * (1 - Math.max(r, g, b)); // white is bright enough
+            const [R, G, B] = [r, g, b].map((x) => (dark ? share * x + DIM : 0));
+            material.emissive.setRGB(R, G, B);
+        }
+    });
 }
 
 function setMatrix(object, M) {

@@ -1,25 +1,26 @@
 // Words over the canvas: each label follows its point, and one that would cover another is not shown.
 
+import { moved } from "./drawing.js";
+
 const GAP = 3; // pixels between two labels
+const ASIDE = 8; // pixels between a label and its point
 const FIRST = { differs: 0, marked: 1 }; // roles whose labels are placed before all others
 
-// The boxes, as places in the list, that can be shown together: each is taken unless it meets one
-// that was taken before. A box is {left, top, right, bottom}.
-export function apart(boxes, gap = GAP) {
-    const taken = [];
-    boxes.forEach((box, k) => {
-        const meets = (j) => {
-            const other = boxes[j];
-            return (
-                box.left < other.right + gap && other.left < box.right + gap &&
-                box.top < other.bottom + gap && other.top < box.bottom + gap
-            );
-        };
-        if (!taken.some(meets)) {
-            taken.push(k);
+// For each list of boxes, best first, the first of them that meets none that is taken already, kept
+// ones or those of lists before it; null where there is none. A box is {left, top, right, bottom}.
+export function apart(lists, kept = [], gap = GAP) {
+    const taken = [...kept];
+    return lists.map((boxes) => {
+        const found = boxes.find((box) => !taken.some((other) => meet(box, other, gap))) ?? null;
+        if (found !== null) {
+            taken.push(found);
         }
+        return found;
     });
-    return taken;
+}
+
+function meet(a, b, gap) {
+    return a.left < b.right + gap && b.left < a.right + gap && a.top < b.bottom + gap && b.top < a.bottom + gap;
 }
 
 export class Labels {
@@ -64,38 +65,32 @@ export class Labels {
     }
 
     update() {
-        const placed = [];
-        for (const one of this.all) {
-            one.element.style.visibility = "hidden";
-            if (this.drawing.isShown(one.label)) {
-                this.place(one, placed);
+        const all = this.all.filter((one) => this.drawing.isShown(one.label)).map((one) => ({ one, ...this.places(one) }));
+        all.sort((a, b) => a.one.order - b.one.order || a.depth - b.depth);
+        this.all.forEach(({ element }) => {
+            element.style.visibility = "hidden";
+        });
+        apart(all.map(({ boxes }) => boxes), this.kept).forEach((box, k) => {
+            if (box !== null) {
+                const { style } = all[k].one.element;
+                style.visibility = "visible";
+                style.transform = `translate(${box.left}px, ${box.top}px)`;
             }
-        }
-        placed.sort((a, b) => a.one.order - b.one.order || a.depth - b.depth);
-        const all = [...this.kept, ...placed];
-        for (const k of apart(all).slice(this.kept.length)) {
-            const { one, left, top } = all[k];
-            one.element.style.visibility = "visible";
-            one.element.style.transform = `translate(${left}px, ${top}px)`;
-        }
+        });
     }
 
-    place(one, placed) {
+    // Boxes that a label may take: right of its point, left of it, above and below; those in the canvas.
+    places(one) {
         const { width, height } = this;
-        const T = this.drawing.poseOf(one.label);
-        const [x, y, z] = one.label.point;
-        this.point.set(
-            T[0] * x + T[1] * y + T[2] * z + T[3],
-            T[4] * x + T[5] * y + T[6] * z + T[7],
-            T[8] * x + T[9] * y + T[10] * z + T[11],
-        );
+        this.point.set(...moved(this.drawing.poseOf(one.label), one.label.point));
         const p = this.point.project(this.K.getWorld().camera);
-        const left = Math.round((0.5 + p.x / 2) * width + 8);
-        const top = Math.round((0.5 - p.y / 2) * height - one.height / 2);
-        const right = left + one.width;
-        const bottom = top + one.height;
-        if (p.z < 1 && left >= 0 && top >= 0 && right <= width && bottom <= height) {
-            placed.push({ one, depth: p.z, left, top, right, bottom });
-        }
+        const x = (0.5 + p.x / 2) * width;
+        const y = (0.5 - p.y / 2) * height;
+        const [w, h] = [one.width, one.height];
+        const boxes = [[x + ASIDE, y - h / 2], [x - ASIDE - w, y - h / 2], [x - w / 2, y - ASIDE - h], [x - w / 2, y + ASIDE]]
+            .map(([left, top]) => [Math.round(left), Math.round(top)])
+            .map(([left, top]) => ({ left, top, right: left + w, bottom: top + h }))
+            .filter(({ left, top, right, bottom }) => p.z < 1 && left >= 0 && top >= 0 && right <= width && bottom <= height);
+        return { boxes, depth: p.z };
     }
 }

@@ -92,7 +92,8 @@ export class State {
     tipNow(t) {
         const { T, J } = this.kinematics[0].tips[t].fk_jacobian(this.q);
         this.parts[t] ??= this.partOf(t);
-        return { T, J, coordinates: this.scene.arms[0].tips[t].coordinates, ...this.parts[t] };
+        const { coordinates, reach } = this.scene.arms[0].tips[t];
+        return { T, J, coordinates, reach, ...this.parts[t] };
     }
 
     partOf(t) {
@@ -145,7 +146,7 @@ export function toHash({ q, selectedTip }) {
 function readHash(poekin) {
     const { q, tip } = fromHash(location.hash, poekin.q.length);
     const tips = poekin.scene.arms[0]?.tips ?? [];
-    if (Number.isInteger(tip) && tip > 0 && tip < tips.length) {
+    if (tips[tip] !== undefined && tip !== poekin.selectedTip) {
         poekin.select(tip);
     }
     if (q !== null) {

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.errors import MissingExtra, ShapeError
+from poekin.errors import InputError, MissingExtra
 from poekin.model.show.plot import AXES_COLORS
 
 pytest.importorskip("matplotlib")
@@ -74,9 +74,10 @@ def test_the_frames_are_those_of_base_and_tool_to_one_scale(arm):
     assert np.allclose(widths, widths[0])
 
 
-def test_a_batch_is_no_configuration(arm):
-    with pytest.raises(ShapeError):
-        arm.plot(np.zeros((2, 3)))
+@pytest.mark.parametrize("q", [np.zeros((2, 3)), [0.0, np.nan, 0.0]], ids=["batch", "nan"])
+def test_what_is_no_single_finite_configuration_is_refused(arm, q):
+    with pytest.raises(InputError, match=r"^q: expected one finite configuration \(3,\), got "):
+        arm.plot(q)
 
 
 def test_without_matplotlib_the_extra_is_named(arm, monkeypatch):

@@ -10,7 +10,7 @@ import pytest
 import poekin as pk
 from poekin.formats import emit
 from poekin.groups import se3
-from poekin.view.nodes import Hung, Label
+from poekin.view.nodes import Attachment, Label
 from poekin.view.page import page
 from poekin.view.scene import Scene, SceneArm, SceneTip, Slider
 from tests.view import sliding_arm
@@ -43,7 +43,7 @@ def ur5e() -> Scene:
         Slider(name, "rad", *map(float, limits))
         for name, limits in zip(chain.q_names, chain.limits, strict=True)
     )
-    tips = (SceneTip("tool0", 1, tuple(range(6))),)
+    tips = (SceneTip("tool0", 1, tuple(range(6)), chain.reach),)
     arm = SceneArm(
         "ur5e",
         program,
@@ -72,8 +72,8 @@ def path(open_page: Any) -> Any:
     second = sliding_arm.arm("second", base=base, factors=np.diag([1.0, 1, 0]), shift=shift)
     nodes = (
         *sliding_arm.nodes(EVIL),
-        Label(Hung("labels", "first"), np.zeros(3), EVIL),
-        sliding_arm.box(Hung("meshes", "second", 3, arm=1), [0.2, 0, 0], [0.4, 0.1, 0.1]),
+        Label(Attachment("labels", "first"), np.zeros(3), EVIL),
+        sliding_arm.box(Attachment("meshes", "second", 3, arm=1), [0.2, 0, 0], [0.4, 0.1, 0.1]),
     )
     arms = (sliding_arm.arm(EVIL), second)
     scene = sliding_arm.scene(EVIL, words=(EVIL,), arms=arms, nodes=nodes, exaggerated=200.0)

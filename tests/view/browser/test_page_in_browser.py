@@ -242,6 +242,10 @@ def test_a_link_holds_the_configuration_and_the_tip(arm):
     arm.ask("() => { location.hash = '#q=1,2&tip=9'; }")
     arm.settle()
     assert arm.ask("[...poekin.q]") == arm.at_first[0]
+    assert arm.ask("poekin.selectedTip") == 1
+    arm.ask("() => { location.hash = '#q=0,0,0'; }")  # a link to the first tip does not name it
+    arm.settle()
+    assert arm.ask("[[...poekin.q], poekin.selectedTip]") == [[0, 0, 0], 0]
 
 
 def test_a_page_in_a_notebook_s_frame_moves_too(open_page):

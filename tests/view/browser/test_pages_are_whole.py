@@ -40,15 +40,21 @@ def robot(open_page: Any) -> Any:
     return open_page(pk.view(pk.load("panda")))
 
 
-def corners(opened: Any) -> np.ndarray:
-    """Corners of the box around all that is shown, on the screen from -1 to 1."""
-    return np.array(
-        opened.ask("""() => { const { THREE } = poekin.K.Provider;
-            const { min, max } = poekin.drawing.bounds(THREE, true);
-            const { camera } = poekin.K.getWorld();
-            return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) =>
-                new THREE.Vector3(x, y, z).project(camera).toArray()))); }""")
-    )
+def drawn(opened: Any) -> np.ndarray:
+    """Points of all that is shown, on the screen from -1 to 1: those of lines, surfaces and clouds."""
+    script = """() => { const { THREE } = poekin.K.Provider;
+        const { camera } = poekin.K.getWorld();
+        const points = [];
+        poekin.drawing.three.forEach((object) => object.visible && object.traverse((part) => {
+            const position = part.geometry?.attributes.position;
+            if (!position || object.matrix.determinant() === 0) return;
+            for (let k = 0; k < position.count; k++) {
+                const p = new THREE.Vector3().fromBufferAttribute(position, k);
+                points.push(p.applyMatrix4(part.matrixWorld).project(camera).toArray());
+            }
+        }));
+        return points; }"""
+    return np.array(opened.ask(script))
 
 
 @pytest.mark.parametrize("width", [1280, 480])
@@ -64,10 +70,14 @@ def test_tables_fit_labels_keep_off_the_buttons_and_the_camera_sees_all(opened, 
         for box in kept:
             across = label["left"] < box["right"] and box["left"] < label["right"]
             assert not (across and label["top"] < box["bottom"] and box["top"] < label["bottom"])
-    seen = corners(opened)
-    bar = opened.boxes("#poekin-toolbar")[0]["bottom"] / opened.boxes("#canvasTarget")[0]["bottom"]
-    assert np.abs(seen[:, :2]).max() <= 1
+    seen = drawn(opened)[:, :2]
+    (canvas,) = opened.boxes("#canvasTarget")
+    bar = opened.boxes("#poekin-toolbar")[0]["bottom"] / canvas["bottom"]
+    assert np.abs(seen).max() <= 1
     assert seen[:, 1].max() <= 1 - 2 * bar + 0.02
+    # from side to side, or from the lower edge to the buttons; but for the room of labels
+    wide, high = np.ptp(seen, axis=0)
+    assert wide >= 0.75 * 2 or high >= 0.8 * (2 - 2 * bar)
     cut = (
         "[...document.querySelectorAll('.slider label')].some((e) => e.scrollWidth > e.clientWidth)"
     )

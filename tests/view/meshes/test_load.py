@@ -221,3 +221,16 @@ def test_without_pycollada_the_extra_is_named(monkeypatch):
 
 def test_what_no_geometry_names_is_nothing_to_refuse():
     assert refuse.checked(b"anything", ".stl") == b"anything"
+
+
+@pytest.mark.parametrize(("length", "shown"), [(200, "x" * 200), (201, "x" * 199 + "…")])
+def test_two_hundred_characters_of_a_library_s_words_are_shown(monkeypatch, length, shown):
+    trimesh = pytest.importorskip("trimesh")
+
+    def fails(*_: object, **__: object) -> None:
+        raise ValueError("x" * length)
+
+    monkeypatch.setattr(trimesh, "load_scene", fails)
+    with pytest.raises(FileError) as caught:
+        load.load(stl(), "m.stl")
+    assert str(caught.value) == f"cannot be read: {shown}"

@@ -8,6 +8,7 @@ import pytest
 import poekin as pk
 from poekin.view.meshes import mesh_nodes as module
 from poekin.view.meshes.mesh_nodes import mesh_nodes
+from poekin.view.nodes import Attachment
 from tests.view.meshes.mesh_files import FACES, TETRAHEDRON, corners, stl
 
 
@@ -41,16 +42,14 @@ def test_a_mesh_is_scaled_then_placed_on_its_link_and_a_mirrored_one_still_faces
     x, y, z = (TETRAHEDRON * [2, -3, 4]).T
     wanted = np.stack([1 - y, 2 + x, 3 + z], axis=1)
     assert np.array_equal(corners(node.vertices, node.faces), corners(wanted, FACES[:, ::-1]))
-    hung = node.hung
-    assert (hung.layer, hung.role, hung.link, hung.arm, hung.name) == ("meshes", "first", 1, 0, "a")
-    assert (hung.color, hung.opacity) == (None, 1.0)
+    assert node.attachment == Attachment("meshes", "first", 1, 0, "a")
 
 
 def test_visuals_of_one_colour_on_a_link_are_one_node_and_the_model_s_colour_is_first(folder):
     red = '<material name="red"><color rgba="1 0.5 0.25 0.5"/></material>'
     visuals = visual(MESH) + visual(MESH, red) + visual(MESH, '<material name="red"/>')
     nodes, _ = mesh_nodes(robot_of(folder, visuals))
-    assert [(n.hung.color, n.hung.opacity, len(n.faces)) for n in nodes] == [
+    assert [(n.attachment.color, n.attachment.opacity, len(n.faces)) for n in nodes] == [
         (None, 1.0, 4),
         (0xFF8040, 0.5, 8),
     ]
@@ -107,13 +106,11 @@ def test_all_files_together_may_have_so_many_bytes(folder, monkeypatch):
     assert "meshes before it" in left.why
 
 
-def test_a_robot_may_have_so_many_shapes(folder, monkeypatch):
-    monkeypatch.setattr(module, "MOST_SHAPES", 2)
-    (node,), (left,) = mesh_nodes(
-        robot_of(folder, visual('<box size="1 2 3"/>') + visual(MESH) * 2)
-    )
-    assert len(node.faces) == 12 + 4
-    assert (left.what, left.why) == ("'m.stl'", "the shapes before it are 2 already")
+def test_of_a_robot_a_thousand_shapes_are_drawn_and_the_next_one_is_named(folder):
+    box = '<box size="1 2 3"/>'
+    (node,), (left,) = mesh_nodes(robot_of(folder, visual(box) * 1000 + visual(MESH)))
+    assert len(node.faces) == 1000 * 12
+    assert (left.what, left.why) == ("'m.stl'", "the shapes before it are 1000 already")
 
 
 def test_a_robot_of_too_many_triangles_has_fewer_and_says_how_far_off(folder, monkeypatch):
@@ -147,10 +144,20 @@ def test_the_panda_is_drawn_whole_in_less_than_three_megabytes_of_arrays():
     robot = pk.load("panda")
     nodes, missing = mesh_nodes(robot)
     assert missing == ()
-    links = {node.hung.link for node in nodes}
+    links = {node.attachment.link for node in nodes}
     assert links == {*range(len(robot.links))} - {robot.links.index("panda_link8")}
     size = sum(12 * len(node.vertices) + 12 * len(node.faces) for node in nodes)
     assert size < 3e6
-    z = np.concatenate([node.vertices[:, 2] for node in nodes if node.hung.link == 0])
+    z = np.concatenate([node.vertices[:, 2] for node in nodes if node.attachment.link == 0])
     # the base: 140 mm high, on the ground
     assert np.allclose([z.min(), z.max()], [0.0, 0.14], atol=0.005)
+
+
+@pytest.mark.parametrize(("length", "shown"), [(200, "x" * 200), (201, "x" * 199 + "…")])
+def test_a_name_of_two_hundred_characters_is_whole_and_a_longer_one_is_cut(folder, length, shown):
+    _, (left,) = mesh_nodes(robot_of(folder, visual(f'<mesh filename="{"x" * length}"/>')))
+    assert left.what == f"'{shown}'"
+
+
+def test_a_page_has_four_hundred_thousand_triangles_at_most():
+    assert module.BUDGET == 400_000

@@ -19,6 +19,7 @@ from poekin.testing.strategies.chain_strategies import chains, coordinates
 from poekin.view.nodes import Cloud, Label, Node, Polyline, Triangles
 from poekin.view.scene import Scene, Slider
 from poekin.view.scenes.arm import arm_geometry, arm_nodes, arm_scene, arm_size
+from poekin.view.scenes.arm_parts import skeleton
 from poekin.view.scenes.arm_parts.axes import axis_nodes
 from poekin.view.scenes.arm_parts.geometry import ArmGeometry, opening_q
 from poekin.view.scenes.arm_parts.missing import left_out_words
@@ -53,14 +54,16 @@ def odd_robot() -> pk.Robot:
 
 
 def of_kind(scene_nodes: tuple[Node, ...] | list[Node], kind: type, layer: str) -> list:
-    return [node for node in scene_nodes if isinstance(node, kind) and node.hung.layer == layer]
+    return [
+        node for node in scene_nodes if isinstance(node, kind) and node.attachment.layer == layer
+    ]
 
 
 def in_the_world(arm: ArmGeometry, q: np.ndarray, node: Node) -> np.ndarray:
     """Points of a node where the page draws them at q."""
     assert isinstance(node, Triangles | Polyline)
     points = node.vertices if isinstance(node, Triangles) else node.points
-    T = arm.poses(q)[node.hung.link]
+    T = arm.poses(q)[node.attachment.link]
     return points @ T[:3, :3].T + T[:3, 3]
 
 
@@ -100,7 +103,7 @@ def test_the_lines_of_a_chain_lie_on_its_screws_at_every_q(data):
         assert angle <= 2 * (2 + len(lines)) * angular + 2 * bound / np.linalg.norm(
             np.ptp(points, 0)
         )
-        assert line.hung.link == k
+        assert line.attachment.link == k
         assert off_axis(arm.joints[k].screw, in_the_world(arm, zero, line))[0] <= bound
     assert len(lines) == len(chain.kinds)
 
@@ -119,7 +122,7 @@ def test_the_lines_of_a_robot_lie_on_the_screws_of_its_chain(robot, tip):
     x = chain.coupling @ q[[robot.q_names.index(name) for name in chain.q_names]]
     J = uncoupled_at_zero(chain).jacobian(x, "space")
     lines = of_kind(arm_nodes(arm, q, arm_size(arm, q)), Polyline, "axes")
-    names = [line.hung.name.split(" ", 1)[1] for line in lines]
+    names = [line.attachment.name.split(" ", 1)[1] for line in lines]
     for k, name in enumerate(chain.joint_names):
         gap, angle = off_axis(J[:, k], in_the_world(arm, q, lines[names.index(name)]))
         assert gap < 1e-14
@@ -134,16 +137,16 @@ def test_frames_are_where_the_robot_has_its_links():
     q = np.array([0.2, -0.3, 0.4, 0.05])
     poses = robot.fk(q)
     frames = of_kind(scene.nodes, Triangles, "frames")
-    shown = [node for node in frames if node.hung.rule is None]
+    shown = [node for node in frames if node.attachment.rule is None]
     for node in shown:
-        axis = {"x": 0, "y": 1, "z": 2}[node.hung.role]
-        T = poses[node.hung.name]
+        axis = {"x": 0, "y": 1, "z": 2}[node.attachment.role]
+        T = poses[node.attachment.name]
         points = in_the_world(arm, q, node)
         along = (points - T[:3, 3]) @ T[:3, axis]
         across = np.linalg.norm(points - T[:3, 3] - along[:, None] * T[:3, axis], axis=1)
         assert across[np.argmax(along)] < 1e-14  # the point of the arrow
         assert along.min() > -1e-14
-    assert {node.hung.name for node in shown} == {
+    assert {node.attachment.name for node in shown} == {
         "base",
         "spin",
         "slid",
@@ -170,19 +173,19 @@ def test_a_glyph_shows_the_kind_of_its_joint():
     robot = odd_robot()
     scene = arm_scene(robot)
     glyphs = {
-        node.hung.name: node
+        node.attachment.name: node
         for node in of_kind(scene.nodes, Triangles, "skeleton")
-        if node.hung.role == "joint"
+        if node.attachment.role == "joint"
     }
     assert set(glyphs) == {"turn", "slide", "thread", "<i>left\u202e", "right"}
-    links = {name: robot.links[node.hung.link] for name, node in glyphs.items()}
+    links = {name: robot.links[node.attachment.link] for name, node in glyphs.items()}
     assert links == {
         "turn": "base", "slide": "slid", "thread": "slid", "<i>left\u202e": "left", "right": "right",
     }  # fmt: skip
     ratios = {}
     for joint in arm_geometry(robot, ()).joints:
         node = glyphs[joint.name]
-        here = node.hung.link == joint.parent
+        here = node.attachment.link == joint.parent
         point, z = joint.child_point, joint.child_direction
         if here:
             point, z = joint.point, joint.direction
@@ -198,7 +201,9 @@ def test_the_glyph_of_a_helical_joint_has_the_hand_of_its_screw(pitch):
     screw = pk.screw.helical([0, 0, 1], [0, 0, 0], pitch)
     scene = arm_scene(pk.Chain.from_space([screw], pk.se3.exp([0, 0, 0, 1, 0, 0])))
     (glyph,) = (
-        node for node in of_kind(scene.nodes, Triangles, "skeleton") if node.hung.role == "joint"
+        node
+        for node in of_kind(scene.nodes, Triangles, "skeleton")
+        if node.attachment.role == "joint"
     )
     start, end = glyph.vertices[-2:, 2]
     assert math.copysign(1.0, end - start) == math.copysign(1.0, pitch)
@@ -209,9 +214,19 @@ def test_the_rail_of_a_prismatic_joint_reaches_over_its_limits():
     arm = arm_geometry(robot, ())
     slide = next(joint for joint in arm.joints if joint.name == "slide")
     bones = of_kind(arm_scene(robot).nodes, Triangles, "skeleton")
-    (rail,) = (n for n in bones if n.hung.role == "first" and n.hung.link == slide.parent)
+    (rail,) = (
+        n for n in bones if n.attachment.role == "first" and n.attachment.link == slide.parent
+    )
     along = (rail.vertices - slide.point) @ slide.direction
     assert 0.4 < along.max() < 0.42
+
+
+@pytest.mark.parametrize(("limit", "end"), [(20.0, 20.0), (np.nextafter(20.0, 21.0), 0.5)])
+def test_a_rail_is_drawn_up_to_twenty_sizes_of_the_arm(limit, end):
+    slide = pk.Joint("slide", "prismatic", "base", "cart", axis=(1, 0, 0), limits=(-limit, limit))
+    (joint,) = arm_geometry(pk.Robot("cart", ["base", "cart"], [slide]), ()).joints
+    low, high = skeleton._rail(joint, 1.0)
+    assert (low.tolist(), high.tolist()) == ([-end, 0, 0], [end, 0, 0])
 
 
 def test_a_rail_without_limits_is_as_long_as_the_arm():
@@ -223,7 +238,7 @@ def test_a_rail_without_limits_is_as_long_as_the_arm():
         (rail,) = (
             node
             for node in of_kind(scene.nodes, Triangles, "skeleton")
-            if node.hung.role == "first" and node.hung.link == 0
+            if node.attachment.role == "first" and node.attachment.link == 0
         )
         assert scene.size == 1.0
         assert 1.0 < np.ptp(rail.vertices[:, 0]) < 1.05
@@ -251,6 +266,28 @@ def test_a_page_of_a_chain_opens_within_its_limits(chain):
     assert [slider.unit == "rad" for slider in arm.sliders] == [
         chain.is_angle(k) for k in range(chain.dof)
     ]
+
+
+@pytest.mark.parametrize(
+    ("bounds", "opening"),
+    [
+        ((0.5, math.inf), 0.5),
+        ((-math.inf, -0.5), -0.5),
+        ((0.25, 1.0), 0.625),
+        ((-1.0, -0.25), -0.625),
+        ((0.0, 1.0), 0.0),
+        ((-1.0, 0.0), 0.0),
+    ],
+)
+def test_a_slider_opens_at_zero_or_in_the_middle_or_at_its_only_bound(bounds, opening):
+    assert opening_q((Slider("q", "rad", *bounds),)).tolist() == [opening]
+
+
+def test_a_table_rounds_to_six_decimals():
+    screw = pk.screw.revolute([0, 0, 1], [1.26e-5, 0.1234564, 0])
+    chain = pk.Chain.from_space([screw], np.eye(4))
+    (row,) = arm_scene(chain).tables[0].rows
+    assert row[4] == "1.3e-05, 0.12346, 0"
 
 
 def test_a_page_can_open_beyond_the_limits_and_says_so():
@@ -311,7 +348,7 @@ def test_names_are_kept_as_data_and_shown_without_control_characters():
 
 
 def columns(scene: Scene, rule: str) -> list[int]:
-    return [node.hung.index for node in scene.nodes if node.hung.rule == rule]
+    return [node.attachment.index for node in scene.nodes if node.attachment.rule == rule]
 
 
 def test_each_coordinate_of_the_largest_tip_has_its_columns():
@@ -329,16 +366,16 @@ def test_unit_geometry_is_of_unit_size():
     for node in scene.nodes:
         if not isinstance(node, Triangles):
             continue
-        if node.hung.rule in ("column_v", "column_w", "singular"):
+        if node.attachment.rule in ("column_v", "column_w", "singular"):
             assert node.vertices[:, 2].min() == 0.0
             assert node.vertices[:, 2].max() == 1.0
-        elif node.hung.rule in ("ellipsoid_v", "ellipsoid_w"):
+        elif node.attachment.rule in ("ellipsoid_v", "ellipsoid_w"):
             np.testing.assert_allclose(np.linalg.norm(node.vertices, axis=1), 1.0, rtol=1e-15)
 
 
 def test_a_singular_opening_is_said_in_words():
     arm = pk.load("ur5e").chain()
-    said = " ".join(arm_scene(arm).words)
+    said = " ".join(arm_scene(arm, q=np.zeros(6)).words)
     assert "'tool0' where the page opens: singular" in said
     away = [0.3, -1.0, 1.2, -0.7, 1.1, 0.2]
     assert "singular" not in " ".join(arm_scene(arm, q=away).words)
@@ -352,7 +389,7 @@ def test_a_cloud_holds_points_that_the_tip_reaches():
     np.testing.assert_array_equal(cloud.values, pk.manipulability(arm, q).translation.yoshikawa)
     scene = arm_scene(arm, cloud=50)
     assert "cloud" in scene.shown
-    assert scene.words[1].startswith("Cloud: 50 points that 'tool0' reaches")
+    assert scene.words[2].startswith("Cloud: 50 points that 'tool0' reaches")
 
 
 def test_the_cloud_of_a_floating_robot_is_where_the_floating_joint_is_zero():
@@ -366,7 +403,7 @@ def test_the_cloud_of_a_floating_robot_is_where_the_floating_joint_is_zero():
     )
     scene = arm_scene(robot, cloud=3)
     (cloud,) = of_kind(scene.nodes, Cloud, "cloud")
-    assert cloud.hung.link is None
+    assert cloud.attachment.link is None
     np.testing.assert_allclose(cloud.points, [[0.1, 0, 1]] * 3, atol=1e-15)
     assert "Floating and planar joints are at zero: 'fly'." in scene.words
 
@@ -391,9 +428,9 @@ def test_the_joints_of_fingers_are_drawn_smaller_than_those_of_arms():
     glyphs = [
         node
         for node in of_kind(arm_scene(robot).nodes, Triangles, "skeleton")
-        if node.hung.role == "joint"
+        if node.attachment.role == "joint"
     ]
-    sizes = {node.hung.name: np.ptp(node.vertices, axis=0).max() for node in glyphs}
+    sizes = {node.attachment.name: np.ptp(node.vertices, axis=0).max() for node in glyphs}
     assert sizes["LShoulderPitch"] > 2 * sizes["LFinger12"]
 
 
@@ -418,7 +455,7 @@ def test_a_link_whose_mesh_is_not_found_is_a_bone_and_is_named():
     robot = pk.from_text(BOXED)
     scene = arm_scene(robot)
     bodies = of_kind(scene.nodes, Triangles, "meshes")
-    assert [robot.links[node.hung.link] for node in bodies] == ["base", "arm"]
+    assert [robot.links[node.attachment.link] for node in bodies] == ["base", "arm"]
     np.testing.assert_allclose(np.ptp(bodies[0].vertices, axis=0), [0.2, 0.4, 0.6], rtol=1e-15)
     bone = bodies[1].vertices[:, 0]
     assert bone.min() < 0.0
@@ -474,7 +511,7 @@ def test_a_bone_shorter_than_a_millionth_of_the_arm_is_not_drawn(length, bones):
     ]
     scene = arm_scene(pk.Robot("mast", ["base", "long", "short"], joints))
     found = of_kind(scene.nodes, Triangles, "skeleton")
-    assert len([node for node in found if node.hung.role == "first"]) == bones
+    assert len([node for node in found if node.attachment.role == "first"]) == bones
 
 
 def test_a_cloud_has_a_million_points_at_most():

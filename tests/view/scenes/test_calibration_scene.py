@@ -7,6 +7,8 @@ import pytest
 
 import poekin as pk
 from poekin.view.nodes import Cloud, Triangles
+from poekin.view.scenes.arm import arm_size
+from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.calibration import MOST, calibration_scene
 
 ARM = pk.load("ur5").chain()
@@ -21,7 +23,7 @@ def found():
 def test_both_arms_have_the_same_coordinates_and_the_calibrated_one_is_that_of_the_result(found):
     scene = calibration_scene(found)
     first, second = scene.arms
-    np.testing.assert_array_equal(scene.q, found.vectors.q[0])
+    assert scene.q.tolist() in found.vectors.q.tolist()
     np.testing.assert_array_equal(second.base, np.eye(4))
     np.testing.assert_array_equal(second.factors[:-1], np.eye(6))
     assert second.shift[-1] == scene.exaggerated > 1
@@ -35,12 +37,20 @@ def test_arrows_go_from_the_measured_points_by_the_residuals_enlarged_as_the_wor
     np.testing.assert_allclose(cloud.points, v.places - v.after, atol=1e-15)
     (words,) = [w for w in scene.words if w.startswith("Residuals are drawn")]
     k = float(words.split()[3])
-    (red,) = [n for n in scene.nodes if isinstance(n, Triangles) and n.hung.role == "differs"]
-    assert red.hung.name == f"residuals of the nominal arm × {k:g}"
+    (red,) = [n for n in scene.nodes if isinstance(n, Triangles) and n.attachment.role == "differs"]
+    assert red.attachment.name == f"residuals of the nominal arm × {k:g}"
     tips = cloud.points + k * v.before
     # each arrow ends at its tip
     gaps = np.linalg.norm(red.vertices[:, None] - tips, axis=-1).min(axis=0)
     assert gaps.max() < 1e-12
+
+
+def test_the_page_opens_at_the_measured_configuration_at_which_the_arm_is_largest(found):
+    arm = chain_geometry(ARM)
+    sizes = [arm_size(arm, q) for q in found.vectors.q]
+    scene = calibration_scene(found)
+    assert scene.size == max(sizes)
+    np.testing.assert_array_equal(scene.q, found.vectors.q[np.argmax(sizes)])
 
 
 def test_corrections_are_a_table_with_a_row_for_each_axis(found):
@@ -52,7 +62,7 @@ def test_corrections_are_a_table_with_a_row_for_each_axis(found):
 def test_a_calibration_out_of_a_file_is_drawn_without_residuals(found, tmp_path):
     found.save(tmp_path / "arm.toml")
     scene = calibration_scene(pk.calibration.load(tmp_path / "arm.toml"))
-    assert not [n for n in scene.nodes if n.hung.layer == "cloud"]
+    assert not [n for n in scene.nodes if n.attachment.layer == "cloud"]
     assert len(scene.arms) == 2
 
 
@@ -70,6 +80,6 @@ def test_residuals_of_nothing_have_no_arrows_and_small_ones_are_drawn_a_thousand
     q = ARM.random(3, size=30)
     found = pk.calibrate(ARM, q, ARM.replace(screws=screws).fk(q), folds=0)
     scene = calibration_scene(found)
-    arrows = [n for n in scene.nodes if isinstance(n, Triangles) and n.hung.layer == "cloud"]
-    assert [n.hung.name for n in arrows] == ["residuals of the nominal arm × 1000"]
+    arrows = [n for n in scene.nodes if isinstance(n, Triangles) and n.attachment.layer == "cloud"]
+    assert [n.attachment.name for n in arrows] == ["residuals of the nominal arm × 1000"]
     assert all(np.isfinite(n.vertices).all() for n in arrows)

@@ -11,7 +11,7 @@ from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.arm_parts.skeleton import glyph_radii, skeleton_nodes
 from poekin.view.scenes.comparison import LEGEND, comparison_scene
 from poekin.view.scenes.two_arms.exaggerated import exaggerated
-from poekin.view.scenes.two_arms.overlay import second_nodes
+from poekin.view.scenes.two_arms.overlay import COVER, FADED, SHELL, second_nodes
 from tests.view.narrowed import all_of
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -24,7 +24,7 @@ def lifted(joint=3, length=0.003):
 
 
 def red(scene):
-    return {node.hung.name for node in scene.nodes if node.hung.role == "differs"}
+    return {node.attachment.name for node in scene.nodes if node.attachment.role == "differs"}
 
 
 @pytest.mark.parametrize("joint", [1, 3, 5])
@@ -34,18 +34,20 @@ def test_the_joint_that_compare_names_is_the_one_that_is_red(joint):
     scene = comparison_scene(found)
     (sentence,) = red(scene)
     assert sentence.startswith(f"joint {joint + 1} ('{differing.name_b}') has an axis that is 3 mm")
-    (label,) = [n for n in scene.nodes if isinstance(n, Label) and n.hung.arm == 1]
+    (label,) = [n for n in scene.nodes if isinstance(n, Label) and n.attachment.arm == 1]
     assert label.text == differing.name_b
     # on the axis of model b at q = 0, ahead of the joint
     made = exaggerated(found)
-    body = chain_geometry(made.chain).poses(np.append(np.zeros(7), 1.0))[label.hung.link]
+    body = chain_geometry(made.chain).poses(np.append(np.zeros(7), 1.0))[label.attachment.link]
     seen = body[:3, :3] @ label.point + body[:3, 3]
     axis = pk.screw.axis_of(found.b.screws[joint])
     assert axis.point is not None
     assert np.linalg.norm(np.cross(axis.direction, seen - axis.point)) < 1e-12
     centre = found.b.joint_poses(np.zeros(7))[joint, :3, 3]
     assert (seen - centre) @ axis.direction > 0
-    assert {n.hung.layer for n in scene.nodes if n.hung.role == "differs"} == {"differences"}
+    assert {n.attachment.layer for n in scene.nodes if n.attachment.role == "differs"} == {
+        "differences"
+    }
     assert "differences" in scene.shown
 
 
@@ -59,6 +61,20 @@ def test_the_words_begin_with_the_outcome_and_the_table_has_each_joint():
     assert [row[3] for row in table.rows] == ["same"] * 3 + ["DIFFERS"] + ["same"] * 3
     assert table.rows[3][6] == "3"
     assert {len(row) for row in table.rows} == {len(table.heads)}
+
+
+def test_of_many_sentences_the_page_holds_eight_and_says_how_many_more_there_are():
+    moved = pk.se3.exp(0.02 * np.random.default_rng(0).normal(size=(7, 6)))
+    screws = np.einsum("kij,kj->ki", pk.se3.adjoint(moved), ARM.screws)
+    found = pk.compare(ARM, ARM.replace(screws=screws))
+    lines = found.summary().splitlines()
+    words = comparison_scene(found).words
+    every = (lines[-1], LEGEND, *lines[:-1])
+    assert len(every) > 9
+    assert words[:8] == every[:8]
+    assert words[8:] == (
+        f"{len(every) - 8} more: summary() of the comparison, and `poekin compare`.",
+    )
 
 
 def test_the_table_leaves_out_what_is_the_same_of_all_joints_and_keeps_what_is_not():
@@ -128,10 +144,16 @@ def test_frames_of_the_second_arm_are_drawn_where_they_are_elsewhere():
     up = pk.se3.exp([0, 0, 0, 0, 0, 0.1])
     for b, ends in ((ARM.rebased(up), {ARM.base}), (ARM.retooled(up), {ARM.tip}), (ARM, set())):
         scene = comparison_scene(pk.compare(ARM, b))
-        frames = [n for n in scene.nodes if n.hung.layer == "frames" and n.hung.arm == 1]
-        assert {n.hung.name for n in frames} == ends
+        frames = [
+            n for n in scene.nodes if n.attachment.layer == "frames" and n.attachment.arm == 1
+        ]
+        assert {n.attachment.name for n in frames} == ends
     both = comparison_scene(pk.compare(ARM, ARM.rebased(up).retooled(up)))
-    names = {n.hung.name for n in both.nodes if n.hung.layer == "frames" and n.hung.arm == 1}
+    names = {
+        n.attachment.name
+        for n in both.nodes
+        if n.attachment.layer == "frames" and n.attachment.arm == 1
+    }
     assert names == {ARM.base, ARM.tip}
 
 
@@ -143,10 +165,38 @@ def test_links_of_the_second_arm_are_where_model_b_has_them():
     plain = b.poses(q)
     drawn = chain_geometry(made.chain).poses(np.append(q, 1.0))
     radii = glyph_radii(b, np.zeros(7), 1.0)
-    true = [n for n in skeleton_nodes(b, radii, 1.0) if n.hung.role == "first"]
-    nodes = [n for n in second_nodes(made, b, {}, (), 1.0) if n.hung.layer == "skeleton"]
+    true = [n for n in skeleton_nodes(b, SHELL * radii, 1.0) if n.attachment.role == "first"]
+    nodes = [n for n in second_nodes(made, b, {}, (), 1.0) if n.attachment.layer == "skeleton"]
     assert len(true) == 6
     pairs = zip(all_of(Triangles, true), all_of(Triangles, nodes), strict=False)
     for one, other in pairs:
         np.testing.assert_array_equal(one.vertices, other.vertices)
-        np.testing.assert_allclose(drawn[other.hung.link], plain[one.hung.link], atol=1e-12)
+        np.testing.assert_allclose(
+            drawn[other.attachment.link], plain[one.attachment.link], atol=1e-12
+        )
+
+
+def test_two_models_that_coincide_are_told_apart_and_a_joint_that_differs_covers_the_other():
+    """What coincides is a shell around the first model, which is seen through it; a joint that
+    differs is opaque, and larger than the first model's.
+    """
+    arm = chain_geometry(ARM)
+    radii = glyph_radii(arm, np.zeros(7), 1.0)
+    first = all_of(Triangles, skeleton_nodes(arm, radii, 1.0))
+    made = exaggerated(pk.compare(ARM, ARM))
+    nodes = second_nodes(made, arm, {ARM.joint_names[2]: "differs"}, (), 1.0)
+    second = [n for n in nodes if isinstance(n, Triangles) and n.attachment.role == "second"]
+    assert {n.attachment.opacity for n in second} == {FADED}
+    red = next(n for n in nodes if isinstance(n, Triangles) and n.attachment.role == "differs")
+    assert red.attachment.opacity == 1
+    glyph = next(
+        n for n in first if (n.attachment.name, n.attachment.role) == (ARM.joint_names[2], "joint")
+    )
+    middle = arm.joints[2].point
+    np.testing.assert_allclose(
+        red.vertices - middle, COVER * (glyph.vertices - middle), rtol=0, atol=1e-15
+    )
+    assert 1 < COVER < SHELL
+    same = [n for n in first if n is not glyph]
+    for inner, outer in zip(same, second, strict=True):
+        assert (np.ptp(outer.vertices, axis=0) > np.ptp(inner.vertices, axis=0)).all()

@@ -22,18 +22,22 @@ Q = START + np.linspace(0, 0.4, 50)[:, None] * np.ones(7)
 
 
 def marked(scene):
-    return [n for n in scene.nodes if n.hung.role == "marked" and n.hung.layer == "path"]
+    return [
+        n for n in scene.nodes if n.attachment.role == "marked" and n.attachment.layer == "path"
+    ]
 
 
 def test_the_way_is_that_of_the_tip_and_the_page_plays_the_joints():
     path = joint_path(ARM, Q, 0.1 * np.arange(50.0))
     scene = path_scene(path)
-    (way,) = [n for n in scene.nodes if isinstance(n, Polyline) and n.hung.role == "path"]
+    (way,) = [n for n in scene.nodes if isinstance(n, Polyline) and n.attachment.role == "path"]
     np.testing.assert_allclose(way.points, ARM.fk(Q)[:, :3, 3], atol=1e-15)
     np.testing.assert_array_equal(motion_of(scene).q, Q)
     np.testing.assert_array_equal(motion_of(scene).times, 0.1 * np.arange(50.0))
     np.testing.assert_array_equal(scene.q, Q[0])
-    arrows = [n for n in scene.nodes if isinstance(n, Triangles) and n.hung.name.startswith("pose")]
+    arrows = [
+        n for n in scene.nodes if isinstance(n, Triangles) and n.attachment.name.startswith("pose")
+    ]
     assert len(arrows) == 3 * FRAMES
     assert "path" in scene.shown
 
@@ -42,7 +46,7 @@ def test_in_its_robot_the_way_hangs_on_the_base_and_other_coordinates_rest():
     scene = path_scene(joint_path(ARM, Q), ROBOT)
     assert scene.arms[0].name == ROBOT.name
     base = ROBOT.links.index(ARM.base)
-    assert {n.hung.link for n in scene.nodes if n.hung.layer == "path"} == {base}
+    assert {n.attachment.link for n in scene.nodes if n.attachment.layer == "path"} == {base}
     assert [s.name for s in scene.arms[0].coordinates] == list(ROBOT.q_names)
     index = [ROBOT.q_names.index(name) for name in ARM.q_names]
     np.testing.assert_array_equal(motion_of(scene).q[:, index], Q)
@@ -62,7 +66,7 @@ def test_limits_and_singular_stretches_are_marked_where_they_are_with_their_sent
     assert {"limit", "singular"} <= {m.kind for m in motion_of(scene).marks}
     assert scene.words[0] == path.summary().splitlines()[0]
     assert not {m.text for m in motion_of(scene).marks} & {*scene.words}  # the marks say them
-    (limit,) = [n for n in marked(scene) if n.hung.name.startswith("poses 10 to 20")]
+    (limit,) = [n for n in marked(scene) if n.attachment.name.startswith("poses 10 to 20")]
     assert isinstance(limit, Polyline)
     np.testing.assert_allclose(limit.points, ARM.fk(q[10:21])[:, :3, 3], atol=1e-15)
 
@@ -112,7 +116,7 @@ def test_poses_of_nan_are_passed_over():
 def test_the_way_of_a_part_of_a_robot_hangs_on_the_link_where_the_part_begins():
     part = ROBOT.chain(base="panda_link2", tip="panda_hand")
     scene = path_scene(joint_path(part, Q[:, 2:]), ROBOT)
-    links = {n.hung.link for n in scene.nodes if n.hung.layer == "path"}
+    links = {n.attachment.link for n in scene.nodes if n.attachment.layer == "path"}
     assert links == {ROBOT.links.index("panda_link2")}
 
 

@@ -107,10 +107,13 @@ def test_a_model_of_twice_the_size_is_drawn_twice_as_large(kind):
     one, two = SCENES[kind](1.0), SCENES[kind](2.0)
     assert two.size == 2 * one.size
     # of a sentence that names a length, its first words
-    places = [[astuple(replace(n.hung, name=n.hung.name[:9])) for n in s.nodes] for s in (one, two)]
+    places = [
+        [astuple(replace(n.attachment, name=n.attachment.name[:9])) for n in s.nodes]
+        for s in (one, two)
+    ]
     assert places[0] == places[1]
     for small, large in zip(one.nodes, two.nodes, strict=True):
         k = (
-            2.0 if small.hung.rule in (None, "target") else 1.0
+            2.0 if small.attachment.rule in (None, "target") else 1.0
         )  # the page makes it as long as J says
         np.testing.assert_allclose(lengths(large), k * lengths(small), rtol=0, atol=1e-9 * one.size)

@@ -16,10 +16,10 @@ def arrows(scene):
     """Name, and vector from the foot to the head, of each arrow of the layer."""
     found = {}
     for node in scene.nodes:
-        if node.hung.layer == "singular" and isinstance(node, Triangles):
+        if node.attachment.layer == "singular" and isinstance(node, Triangles):
             # the surface begins and ends at the points of its profile on the axis, the last two
             start, end = node.vertices[-2:]
-            found[node.hung.name.partition(":")[0]] = (start, end - start)
+            found[node.attachment.name.partition(":")[0]] = (start, end - start)
     return found
 
 
@@ -50,4 +50,4 @@ def test_a_lost_translation_is_an_arrow_too_and_a_regular_arm_shows_what_would_b
 
 def test_the_arrow_that_follows_the_sliders_is_not_drawn_beside_it():
     scene = singularity_scene(pk.singularity(UR5, np.zeros(6)))
-    assert all(node.hung.rule != "singular" for node in scene.nodes)
+    assert all(node.attachment.rule != "singular" for node in scene.nodes)

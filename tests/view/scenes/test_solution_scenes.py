@@ -26,9 +26,9 @@ def test_each_solution_is_a_choice_and_a_ghost_and_the_page_opens_at_the_first()
         np.testing.assert_array_equal(choice.q, EVERY.solutions[k])
         assert choice.text.startswith(f"{k + 1}: ")
     np.testing.assert_array_equal(scene.q, EVERY.solutions[0])
-    ghosts = [n for n in scene.nodes if n.hung.layer == "solutions"]
-    assert {n.hung.choice for n in ghosts} == set(range(8))
-    assert all(n.hung.opacity < 0.5 and n.hung.rule is None for n in ghosts)
+    ghosts = [n for n in scene.nodes if n.attachment.layer == "solutions"]
+    assert {n.attachment.choice for n in ghosts} == set(range(8))
+    assert all(n.attachment.opacity < 0.5 and n.attachment.rule is None for n in ghosts)
     assert {"solutions", "path"} <= scene.shown
     assert scene.words[0] == EVERY.summary()
 
@@ -36,14 +36,18 @@ def test_each_solution_is_a_choice_and_a_ghost_and_the_page_opens_at_the_first()
 def test_a_ghost_stands_where_its_solution_has_the_links():
     scene = solutions_scene(EVERY)
     arm = chain_geometry(ARM)
-    bones = [n for n in scene.nodes if n.hung.layer == "skeleton" and isinstance(n, Triangles)]
+    bones = [
+        n for n in scene.nodes if n.attachment.layer == "skeleton" and isinstance(n, Triangles)
+    ]
     for k in (0, 5):
-        own = [n for n in scene.nodes if n.hung.layer == "solutions" and n.hung.choice == k]
+        own = [
+            n for n in scene.nodes if n.attachment.layer == "solutions" and n.attachment.choice == k
+        ]
         ghosts = all_of(Triangles, own)
         assert len(ghosts) == len(bones)
         poses = arm.poses(EVERY.solutions[k])
         for ghost, bone in zip(ghosts, bones, strict=True):
-            R, p = poses[bone.hung.link][:3, :3], poses[bone.hung.link][:3, 3]
+            R, p = poses[bone.attachment.link][:3, :3], poses[bone.attachment.link][:3, 3]
             np.testing.assert_allclose(ghost.vertices, bone.vertices @ R.T + p, atol=1e-14)
 
 
@@ -63,8 +67,8 @@ def test_the_target_of_ik_is_drawn_with_the_arm_at_its_solution():
     found = pk.ik(ARM, T)
     scene = solution_scene(found)
     np.testing.assert_array_equal(scene.q, found.q)
-    drawn = [n for n in scene.nodes if n.hung.layer == "path" and isinstance(n, Triangles)]
-    assert [n.hung.role for n in drawn] == ["x", "y", "z"]
+    drawn = [n for n in scene.nodes if n.attachment.layer == "path" and isinstance(n, Triangles)]
+    assert [n.attachment.role for n in drawn] == ["x", "y", "z"]
     for k, arrow in enumerate(drawn):  # from the target's origin along its axes
         start, end = arrow.vertices[-2:]
         np.testing.assert_allclose(start, T[:3, 3], atol=1e-12)
@@ -119,3 +123,8 @@ def test_a_pose_without_solutions_is_shown_with_its_sentence():
     scene = solutions_scene(found)
     assert scene.choices == ()
     assert scene.words[0].startswith("0 solutions")
+
+
+def test_a_coordinate_below_a_billionth_is_a_zero_in_words():
+    assert configuration_words(ARM, np.full(6, -4e-10)) == ", ".join(["0°"] * 6)
+    assert "0°" not in configuration_words(ARM, np.full(6, 6e-10)).split(", ")

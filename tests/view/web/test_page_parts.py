@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pytest
 
 import poekin as pk
 from tests.view.web.page_scripts import run
@@ -40,9 +41,9 @@ def test_labels_are_shown_unless_they_meet_one_that_is_shown(tmp_path):
         {"left": x, "top": y, "right": x + w, "bottom": y + h}
         for (x, y), (w, h) in zip(corner.tolist(), size.tolist(), strict=True)
     ]
-    shown = ask(
-        tmp_path, 'import { apart } from "./labels.js";', "print(apart(given.b, 3));", b=boxes
-    )
+    script = "print(apart(given.b.map((box) => [box]), [], 3).map((box) => box !== null));"
+    taken = ask(tmp_path, 'import { apart } from "./labels.js";', script, b=boxes)
+    shown = [k for k, one in enumerate(taken) if one]
 
     def meet(a: dict[str, float], b: dict[str, float]) -> bool:
         across = a["left"] < b["right"] + 3 and b["left"] < a["right"] + 3
@@ -52,6 +53,41 @@ def test_labels_are_shown_unless_they_meet_one_that_is_shown(tmp_path):
     for k, box in enumerate(boxes):
         met = any(meet(box, boxes[j]) for j in shown if j < k)
         assert met is (k not in shown)
+
+
+def test_a_label_takes_the_first_place_that_is_free_of_buttons_and_of_labels_before_it(tmp_path):
+    def box(left: float, top: float) -> dict[str, float]:
+        return {"left": left, "top": top, "right": left + 10, "bottom": top + 10}
+
+    lists = [[box(0, 0), box(20, 0)], [box(0, 0), box(22, 0), box(40, 0)], [box(40, 5)], []]
+    script = "print(apart(given.lists, [given.button], 3));"
+    found = ask(
+        tmp_path, 'import { apart } from "./labels.js";', script, lists=lists, button=box(-5, -5)
+    )
+    assert found == [box(20, 0), box(40, 0), None, None]
+
+
+def test_a_camera_sees_all_points_and_is_as_near_as_it_can_be(tmp_path):
+    """By the planes that bound the view: a point is as far inside as slope times depth is more than
+    its distance aside. The rounding is that of a few operations on numbers up to 30.
+    """
+    rng = np.random.default_rng(21)
+    clouds = rng.normal(size=(40, 30, 3)) * 10.0 ** rng.uniform(-1, 0.5, (40, 1, 3))
+    slopes = {"right": 0.4, "left": 0.3, "above": 0.15, "below": 0.25}
+    script = "print(given.clouds.map((points) => framed(points, given.slopes, 0.01)));"
+    script_of = 'import { framed } from "./drawing.js";'
+    found = ask(tmp_path, script_of, script, clouds=clouds, slopes=slopes)
+    for points, eye in zip(clouds, np.array(found), strict=True):
+        x, y, depth = (np.array([1, 1, -1]) * (points - eye)).T
+        inside = [0.4 * depth - x, 0.3 * depth + x, 0.15 * depth - y, 0.25 * depth + y]
+        right, left, above, below = np.min(inside, axis=1)
+        assert min(right, left, above, below) >= -1e-13
+        assert min(right + left, above + below) <= 1e-13  # it touches both planes of a pair
+        assert abs(right - left) <= 1e-13  # the other pair is as far off on both sides
+        assert abs(above - below) <= 1e-13
+    flat = np.array([[[0.0, 0.0, 2.0]]])
+    (eye,) = ask(tmp_path, script_of, script, clouds=flat, slopes=slopes)
+    assert eye[2] == 2.01
 
 
 def test_numbers_are_words_without_a_negative_zero(tmp_path):
@@ -105,3 +141,36 @@ def test_only_a_tip_that_a_sliding_joint_moves_has_shorter_arrows(tmp_path):
         print([0, 1].map((tip) => arrowScales(scene, tip).v));"""
     found = ask(tmp_path, 'import { arrowScales } from "./drawing.js";', script)
     assert found == [0.35, 0.1]
+
+
+def test_the_worst_direction_is_weighed_by_the_reach_of_the_arm_whatever_the_scene_s_size(tmp_path):
+    chain = pk.load("ur5e").chain(tip="tool0")
+    q = chain.random(2)
+    script = """
+        const { T, J, reach } = given;
+        const tip = { T, J: Float64Array.from(J), coordinates: [0, 1, 2, 3, 4, 5], part: "pose", rank: 6, reach };
+        const sliders = given.limits.map(([lower, upper]) => ({ lower, upper }));
+        const scene = { size: 40 * reach, arms: [{ coordinates: sliders }] };
+        print([
+            numbersOf(scene, given.q, tip).singular.twist,
+            rulePose({ rule: "singular" }, tip, scene, { v: 1, w: 1 }),
+        ]);"""
+    twist, drawn = ask(
+        tmp_path,
+        'import { numbersOf } from "./panel/numbers.js"; import { rulePose } from "./drawing.js";',
+        script,
+        T=chain.fk(q).ravel(),
+        J=chain.jacobian(q, "hybrid").ravel(),
+        q=q,
+        limits=chain.limits,
+        reach=chain.reach,
+    )
+    wanted = pk.singularity(chain, q).singular_direction
+    # the next singular value is a third away: a vector turns by a few u
+    np.testing.assert_allclose(twist, wanted, rtol=0, atol=1e-13)
+    w, v = wanted[:3], wanted[3:] / chain.reach
+    larger = max(w, v, key=np.linalg.norm)
+    arrow = np.array(drawn).reshape(4, 4)[:3, 2]
+    assert np.linalg.norm(arrow) == pytest.approx(1.5, rel=1e-14)  # one and a half of a rad/rad
+    unit = arrow / np.linalg.norm(arrow)
+    np.testing.assert_allclose(unit, larger / np.linalg.norm(larger), rtol=0, atol=1e-13)

@@ -7,7 +7,7 @@ import numpy as np
 from ....errors import escape_unprintable
 from ....groups.arrays import Array
 from ....model.screw import axis_of
-from ...nodes import Hung, Label, Node, Polyline, Role, Triangles
+from ...nodes import Attachment, Label, Node, Polyline, Role, Triangles
 from ...scene import PageTable
 from ...shapes import cone, frame_axes
 from .geometry import ArmGeometry, JointGeometry
@@ -15,6 +15,8 @@ from .skeleton import LARGEST
 
 HALF_LINE = 4.0
 """Half an axis line as a multiple of the radius of the joint's glyph."""
+CROWD = 20
+"""Joints up to which lines are as long as that; of more they are shorter by the root of their number."""
 COVERED = 1.6
 """Factor by which lines and frames are longer where bodies cover them."""
 END_FRAME = 3.0
@@ -34,18 +36,18 @@ def axis_nodes(
     """For each joint its axis A_k, a head at the positive end, and its number; lines are longer where
     bodies cover them.
     """
-    half = HALF_LINE * (COVERED if covered else 1.0)
+    half = HALF_LINE * (COVERED if covered else 1.0) * min(1.0, (CROWD / max(len(radii), 1)) ** 0.5)
     nodes: list[Node] = []
     for k, (joint, radius) in enumerate(zip(arm.joints, radii, strict=True)):
         title = f"A{k + 1}"
-        hung = Hung("axes", "joint", joint.parent, name=f"{title} {joint.name}")
+        attachment = Attachment("axes", "joint", joint.parent, name=f"{title} {joint.name}")
         way = radius * joint.direction
         end = joint.point + half * way
         head = cone(0.15 * radius, 0.5 * radius).placed(end, joint.direction)
         nodes += [
-            Polyline(hung, np.array([joint.point - half * way, end]), 0.0025 * size),
-            Triangles(hung, *head),
-            Label(hung, end + way, title),
+            Polyline(attachment, np.array([joint.point - half * way, end]), 0.0025 * size),
+            Triangles(attachment, *head),
+            Label(attachment, end + way, title),
         ]
     return nodes
 
@@ -54,7 +56,7 @@ def label_nodes(arm: ArmGeometry, radii: Array) -> list[Node]:
     """Names of the joints, beside them."""
     return [
         Label(
-            Hung("labels", "joint", joint.parent, name=joint.name),
+            Attachment("labels", "joint", joint.parent, name=joint.name),
             joint.point - 1.5 * radius * joint.direction,
             escape_unprintable(joint.name),
         )
@@ -82,11 +84,11 @@ def frame_nodes(
         if frame.kind == "end":
             length = END_FRAME * largest * (COVERED if covered else 1.0)
         for role, axis in zip(XYZ, frame_axes(frame.pose, length), strict=True):
-            nodes.append(Triangles(Hung("frames", role, frame.link, name=frame.name), *axis))
+            nodes.append(Triangles(Attachment("frames", role, frame.link, name=frame.name), *axis))
         if frame.kind != "link":
-            hung = Hung("frames", "first", frame.link, name=frame.name)
+            attachment = Attachment("frames", "first", frame.link, name=frame.name)
             place = frame.pose[:3] @ [0.6 * length, 0.6 * length, 0.0, 1.0]
-            nodes.append(Label(hung, place, escape_unprintable(frame.name)))
+            nodes.append(Label(attachment, place, escape_unprintable(frame.name)))
     return nodes
 
 

@@ -11,10 +11,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ....errors import InputError, join_names, safe_repr
+from ....errors import join_names
 from ....groups.arrays import Array
 from ....model.chain_data import ScrewKind
-from ....model.coordinates import coordinates
+from ....model.coordinates import one_configuration
 from ...scene import Slider
 from ...shapes import transformed
 
@@ -131,16 +131,11 @@ def opening_q(sliders: tuple[Slider, ...], q: Any = None) -> Array:
     """Configuration (m,) of the sliders: q; without it zero where that is within the limits, else
     their middle, or the one bound that there is.
 
-    Raises: what `coordinates` does, and InputError where q is not one finite configuration.
+    Raises: what `one_configuration` does.
     """
     if q is None:
         return np.array([_opening(slider.lower, slider.upper) for slider in sliders])
-    given = coordinates(q, tuple(slider.name for slider in sliders))
-    if given.ndim != 1 or not np.isfinite(given).all():
-        raise InputError(
-            f"q: expected one finite configuration ({len(sliders)},), got {safe_repr(given.tolist())}"
-        )
-    return given
+    return one_configuration(q, tuple(slider.name for slider in sliders))
 
 
 def _opening(lower: float, upper: float) -> float:

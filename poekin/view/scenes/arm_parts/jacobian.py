@@ -8,7 +8,7 @@ from ....analysis.dexterity.singularity import singularity
 from ....errors import quote
 from ....groups.arrays import Array
 from ....model.chain import Chain
-from ...nodes import Hung, Layer, Node, Role, Rule, Triangles
+from ...nodes import Attachment, Layer, Node, Role, Rule, Triangles
 from ...shapes import arrow, sphere
 
 NEAR = 0.1
@@ -16,11 +16,13 @@ NEAR = 0.1
 
 UNIT_ARROW = arrow(1.0, 0.012, 0.03, 0.1)
 HANDLE = 0.018
-"""Radius of the handle as a share of the arm's size."""
+"""Radius of the handle as a share of the arm's size, where no joint's glyph is smaller."""
 
 
-def jacobian_nodes(columns: int, size: float) -> list[Node]:
-    """Nodes for Jacobians of up to so many columns; unit geometry that the page scales and turns."""
+def jacobian_nodes(columns: int, radius: float) -> list[Node]:
+    """Nodes for Jacobians of up to so many columns: unit geometry that the page scales and turns, and
+    a handle of a radius, m.
+    """
     nodes = [
         *(_node("jacobian", "linear", "column_v", k) for k in range(columns)),
         *(_node("jacobian", "angular", "column_w", k) for k in range(columns)),
@@ -28,8 +30,8 @@ def jacobian_nodes(columns: int, size: float) -> list[Node]:
         _node("ellipsoids", "angular", "ellipsoid_w"),
         _node("singular", "marked", "singular"),
     ]
-    handle = Hung("frames", "marked", rule="target", name="target", opacity=0.6)
-    return [*nodes, Triangles(handle, *sphere(HANDLE * size, 16))]
+    handle = Attachment("frames", "marked", rule="target", name="target", opacity=0.6)
+    return [*nodes, Triangles(handle, *sphere(radius, 16))]
 
 
 def _node(layer: Layer, role: Role, rule: Rule, index: int = 0) -> Triangles:
@@ -42,8 +44,8 @@ def _node(layer: Layer, role: Role, rule: Rule, index: int = 0) -> Triangles:
         "ellipsoid_w": "angular manipulability",
         "singular": "singular direction",
     }
-    hung = Hung(layer, role, rule=rule, index=index, name=words[rule], opacity=opacity)
-    return Triangles(hung, *shape)
+    attachment = Attachment(layer, role, rule=rule, index=index, name=words[rule], opacity=opacity)
+    return Triangles(attachment, *shape)
 
 
 def singular_words(chain: Chain, q: Array) -> tuple[str, ...]:

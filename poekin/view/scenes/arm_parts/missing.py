@@ -22,7 +22,7 @@ def stand_ins(
     size: float,
 ) -> list[Triangles]:
     """Bones of the links of which nothing is drawn though they have a shape."""
-    drawn = {body.hung.link for body in bodies}
+    drawn = {body.attachment.link for body in bodies}
     lost = {arm.links.index(left.link) for left in left_out if left.link}
     return bone_nodes(arm, dict.fromkeys(lost - drawn, THICK * size), size, "meshes")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ....analysis.dexterity.manipulability import manipulability
 from ....model.chain import Chain
-from ...nodes import Cloud, Hung
+from ...nodes import Attachment, Cloud
 
 SEED = 0
 
@@ -15,5 +15,5 @@ def reach_cloud(chain: Chain, count: int, size: float) -> Cloud:
     """
     q = chain.random(SEED, size=count)
     values = manipulability(chain, q).translation.yoshikawa
-    hung = Hung("cloud", "first", name=f"points that {chain.tip} reaches")
-    return Cloud(hung, chain.fk(q)[:, :3, 3], 0.006 * size, values)
+    attachment = Attachment("cloud", "first", name=f"points that {chain.tip} reaches")
+    return Cloud(attachment, chain.fk(q)[:, :3, 3], 0.006 * size, values)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ....groups.arrays import Array
 from ....model.chain_data import ScrewKind
-from ...nodes import Hung, Layer, Triangles
+from ...nodes import Attachment, Layer, Triangles
 from ...shapes import (
     Surface,
     arc_arrow,
@@ -85,7 +85,7 @@ def bone_nodes(
             rail = capsule(*_rail(joint, size), 0.5 * thickness[joint.parent])
             pieces.setdefault(joint.parent, []).append(rail)
     return [
-        Triangles(Hung(layer, "first", link, name=arm.links[link]), *merged(*surfaces))
+        Triangles(Attachment(layer, "first", link, name=arm.links[link]), *merged(*surfaces))
         for link, surfaces in pieces.items()
     ]
 
@@ -112,7 +112,7 @@ def _glyph_node(joint: JointGeometry, radius: float) -> Triangles:
     else:
         link = joint.parent
         placed = glyph.placed(joint.point, joint.direction)
-    return Triangles(Hung("skeleton", "joint", link, name=joint.name), *placed)
+    return Triangles(Attachment("skeleton", "joint", link, name=joint.name), *placed)
 
 
 @cache

@@ -10,7 +10,7 @@ import numpy as np
 from ....groups import se3
 from ....groups.arrays import Array
 from ...kinematics import page_tips
-from ...nodes import Hung, Label, Node
+from ...nodes import Attachment, Label, Node
 from ...scene import SceneArm
 from ...shapes import transformed
 from ..arm import scene_arm
@@ -20,8 +20,12 @@ from ..arm_parts.of_chain import chain_geometry
 from ..arm_parts.skeleton import glyph_radii, skeleton_nodes
 from .exaggerated import Exaggerated
 
-FADED = 0.6
+FADED = 0.3
 """Opacity of the second arm."""
+SHELL = 1.5
+"""Thickness of the second arm by that of the first, which is seen inside it where the two coincide."""
+COVER = 1.15
+"""Likewise of its joints that differ, which cover those of the first."""
 
 
 def second_arm(second: Exaggerated, base: Array, factors: Array, shift: Array) -> SceneArm:
@@ -55,9 +59,10 @@ def second_nodes(
     """
     radii = glyph_radii(geometry, np.zeros(len(geometry.sliders)), size)
     arm = _on_bodies(geometry, second)
+    thicker = np.array([COVER if joint.name in differing else SHELL for joint in arm.joints])
     frames = tuple(frame for frame in arm.frames if frame.kind == "end" and frame.name in ends)
     nodes = [
-        *skeleton_nodes(arm, radii, size),
+        *skeleton_nodes(arm, radii * thicker, size),
         *frame_nodes(replace(arm, frames=frames), radii, size),
     ]
     drawn = [_of_second(node, differing) for node in nodes]
@@ -68,13 +73,13 @@ def second_nodes(
         for node in axis_nodes(only, radii[k : k + 1], size):
             if not isinstance(node, Label):
                 drawn.append(_differing(node, differing[joint.name]))
-        hung = Hung("differences", "differs", joint.parent, 1, differing[joint.name])
-        drawn.append(Label(hung, joint.point + 2.5 * radii[k] * joint.direction, joint.name))
+        attachment = Attachment("differences", "differs", joint.parent, 1, differing[joint.name])
+        drawn.append(Label(attachment, joint.point + 2.5 * radii[k] * joint.direction, joint.name))
     return drawn
 
 
 def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
-    """Geometry of the chain as it is, hung on the bodies of the exaggerated one."""
+    """Geometry of the chain as it is, attached to the bodies of the exaggerated one."""
     bodies = second.bodies
     back = se3.exp(-second.moves)
     joints = []
@@ -103,15 +108,15 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
 
 def _of_second(node: Node, differing: dict[str, str]) -> Node:
     """A node of the first arm as one of the second."""
-    hung = node.hung
-    if hung.layer != "skeleton":
-        return replace(node, hung=replace(hung, arm=1))
-    if hung.role == "joint" and hung.name in differing:
-        return _differing(node, differing[hung.name])
-    return replace(node, hung=replace(hung, arm=1, role="second", opacity=FADED))
+    attachment = node.attachment
+    if attachment.layer != "skeleton":
+        return replace(node, attachment=replace(attachment, arm=1))
+    if attachment.role == "joint" and attachment.name in differing:
+        return _differing(node, differing[attachment.name])
+    return replace(node, attachment=replace(attachment, arm=1, role="second", opacity=FADED))
 
 
 def _differing(node: Node, words: str) -> Node:
     """A node in the layer of differences, with the sentence on its joint."""
-    hung = replace(node.hung, arm=1, layer="differences", role="differs", name=words)
-    return replace(node, hung=hung)
+    attachment = replace(node.attachment, arm=1, layer="differences", role="differs", name=words)
+    return replace(node, attachment=attachment)

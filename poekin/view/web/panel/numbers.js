@@ -5,8 +5,7 @@ import { cross3, limitDistances, manipulability, positionOf, quaternionOf, rollP
 
 // All numbers of the selected tip, SI; J row by row (ω; v), columns of `coordinates`.
 export function numbersOf(scene, q, tip) {
-    const { T, J, part, rank } = tip;
-    const { coordinates } = tip;
+    const { T, J, part, rank, coordinates, reach } = tip;
     const sliders = coordinates.map((k) => scene.arms[0].coordinates[k]);
     const own = coordinates.map((k) => q[k]);
     const { distances } = limitDistances(own, sliders);
@@ -18,7 +17,7 @@ export function numbersOf(scene, q, tip) {
         J: Array.from(J),
         part,
         manipulability: manipulability(J, part, rank),
-        singular: singularDirection(J, part, rank, scene.size),
+        singular: singularDirection(J, part, rank, reach),
         limits: distances,
         screws: screwsOf(T, J),
     };
@@ -76,7 +75,7 @@ export class Numbers {
             const { yoshikawa, smallest, condition } = n.manipulability;
             const least = Math.min(...n.limits);
             const figured = [yoshikawa, smallest, condition].map((x) => [figures(x, 4)]);
-            return [...figured, [directionWords(n.singular.twist, poekin.scene.size)], [this.limit(least, n, names, arm)]];
+            return [...figured, [directionWords(n.singular.twist, arm.tips[poekin.selectedTip].reach)], [this.limit(least, n, names, arm)]];
         });
         this.table("Jacobian (ω; v) at the tip", false, ["", ...names], ROWS, (n) => rowsOf(n.J, m));
         this.table("Screw axes now", false, ["", "ωx", "ωy", "ωz", "vx", "vy", "vz", "pitch"], names, (n) =>

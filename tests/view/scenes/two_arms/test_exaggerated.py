@@ -163,7 +163,7 @@ def test_the_frame_of_a_tool_that_is_aligned_is_drawn_where_model_b_has_it():
     )
     (at_rest,) = [node for node in plain if isinstance(node, Label)]
     q = ARM.random(6)
-    drawn = chain_geometry(made.chain).poses(np.append(q, 1.0))[label.hung.link]
+    drawn = chain_geometry(made.chain).poses(np.append(q, 1.0))[label.attachment.link]
     true = chain_geometry(found.b).poses(q)[-1]
     place = true @ [*at_rest.point, 1.0]
     np.testing.assert_allclose(drawn @ [*label.point, 1.0], place, atol=1e-12)
