@@ -114,6 +114,49 @@ EQUATIONS: dict[str, str] = {
         r"df\,f^{-1} = \sum_{i=1}^{n} (\operatorname{Ad}(P_{i-1}) - \operatorname{Ad}(P_i))\,\eta_i "
         r"+ \operatorname{Ad}(f)\,\eta, \quad P_i = e^{A_1 q_1} \cdots e^{A_i q_i}"
     ),
+    "poekin.formulas.ik.circle_conic": (
+        r"A c^2 + B c s + C s^2 + D c + E s + F = 0, \quad c = \cos\theta, \quad s = \sin\theta"
+    ),
+    "poekin.formulas.ik.circle_line": (
+        r"(c, s) = \frac{d\,(a, b) \pm w\,(-b, a)}{r^2}, \quad r^2 = a^2 + b^2, \quad w^2 = (r - d)(r + d)"
+    ),
+    "poekin.formulas.ik.cones": (
+        r"e^{[k]\theta} a = e^{[m]\varphi} b = (k \cdot a + m \cdot b) \frac{k + m}{\|k + m\|^2} "
+        r"+ (k \cdot a - m \cdot b) \frac{k - m}{\|k - m\|^2} \pm \gamma\, k \times m"
+    ),
+    "poekin.formulas.ik.orientation": (
+        r"R = e^{[h_1] x_1} e^{[h_2] x_2} e^{[h_3] x_3}, \quad "
+        r"h_1 \cdot e^{[h_2] x_2} h_3 = h_1 \cdot R h_3"
+    ),
+    "poekin.formulas.ik.position": (
+        r"p = e^{[h_1] x_1} (P_1 + e^{[h_2] x_2} y), \quad y = P_2 + e^{[h_3] x_3} P_3"
+    ),
+    "poekin.formulas.ik.rotation_onto": (
+        r"e^{[k]\theta} a = b, \quad "
+        r"(\cos\theta, \sin\theta) \sim ((k \times a) \cdot (k \times b),\; k \cdot (a \times b))"
+    ),
+    "poekin.formulas.ik.three_parallel": (
+        r"h_2 \cdot R' h_6 = h_2 \cdot e^{[h_5] x_5} h_6, \quad "
+        r"h_2 \cdot p' = h_2 \cdot (P_1 + P_2 + P_3 + P_4 + e^{[h_5] x_5} P_5)"
+    ),
+    "poekin.formulas.ik.two_circles": (
+        r"a_i c + a_i' s + b_i x + b_i' y = d_i \quad (i = 1, 2), \quad c^2 + s^2 = x^2 + y^2 = 1"
+    ),
+    "poekin.formulas.ik.slides.circle_and_line": (
+        r"a c + a' s + b t = d, \quad A c + A' s + B t + K t^2 = D, \quad c^2 + s^2 = 1"
+    ),
+    "poekin.formulas.ik.slides.planar": (
+        r"\|y + t u\|^2 = \|z\|^2 \quad \text{or} \quad t u + w v = y"
+    ),
+    "poekin.formulas.ik.slides.position": (
+        r"p = X_1 (P_1 + X_2 (P_2 + X_3 P_3)), \quad "
+        r"X_i y = e^{[h_i] x_i} y \quad \text{or} \quad X_i y = y + h_i t_i"
+    ),
+    "poekin.formulas.ik.slides.quadratic": (
+        r"k t^2 + 2 h t + e = 0: \quad t_1 = -\frac{h + \operatorname{sign}(h)\,w}{k}, \quad "
+        r"t_2 = \frac{e}{k t_1}, \quad w^2 = h^2 - k e"
+    ),
+    "poekin.formulas.ik.slides.two_lines": (r"a t + b w = d, \quad A t + K t^2 + B w + L w^2 = D"),
     "poekin.formulas.inverse.pose_error": (
         r"e = \left(2 \sin\tfrac{\varphi}{2}\, n;\; p^* - p\right), \quad e^{[n]\varphi} R = R^*"
     ),
@@ -121,11 +164,27 @@ EQUATIONS: dict[str, str] = {
         r"(J^T W J + \lambda I)\,\Delta q = J^T W e, \quad \lambda = \tfrac{1}{20}\, e^T W e"
     ),
     "poekin.formulas.inverse.least_squares": r"(J^T W J + \lambda I)\,x = J^T W e",
+    "poekin.formulas.inverse.confirmed": r"J\,dq = (\sin(\phi)\,n;\ p^* - p),\quad e^{[n]\phi} R = R^*",
+    "poekin.formulas.ik.elimination.circle_roots": (
+        r"f(x) = a_0 + \sum_{k=1}^{8} (a_k \cos k x + b_k \sin k x) = 0"
+    ),
+    "poekin.formulas.ik.elimination.joints": (
+        r"h_1 \cdot e^{[h_2] x_2} p = h_1 \cdot (W - P_1), \quad "
+        r"h_1 \cdot e^{[h_2] x_2} d = h_1 \cdot d_0"
+    ),
+    "poekin.formulas.ik.elimination.line_equations": (
+        r"e_3 e_4 e_5 L_6 = e_2^{-1} e_1^{-1} G L_6, \quad e_i = e^{A_i x_i}, \quad e_1 \cdots e_6 = G"
+    ),
+    "poekin.formulas.ik.elimination.null_rows": r"N N^T = I, \quad N B = 0",
+    "poekin.formulas.ik.elimination.resultant": (
+        r"\det M(x_3) = \sum_{k=-8}^{8} F_k e^{i k x_3} = 0, \quad \Delta x = -\frac{w^T M v}{w^T M' v}"
+    ),
     "poekin.formulas.lie.defect": r"\|R^T R - I\|, \quad \det R",
 }
 
 # Modules of formulas that have no equation, each with its reason.
 WITHOUT: dict[str, str] = {
+    "poekin.formulas.ik.rounding": "comparisons that know the rounding of a scalar's kind",
     "poekin.formulas.lie.compensated": "the rounding errors of a length, a quotient and a sum",
     "poekin.formulas.elementary": "square root, sine, cosine and arctangent themselves",
 }

@@ -10,7 +10,27 @@ import pytest
 
 from poekin import algebra, formulas
 from poekin.formulas import dh, elementary
-from poekin.formulas.inverse import damped_step, least_squares, pose_error
+from poekin.formulas.ik import (
+    circle_conic,
+    circle_line,
+    cones,
+    orientation,
+    position,
+    rotation_onto,
+    rounding,
+    three_parallel,
+    two_circles,
+)
+from poekin.formulas.ik.elimination import (
+    circle_roots,
+    joints,
+    line_equations,
+    null_rows,
+    resultant,
+)
+from poekin.formulas.ik.slides import circle_and_line, planar, quadratic, two_lines
+from poekin.formulas.ik.slides import position as slides_position
+from poekin.formulas.inverse import confirmed, damped_step, least_squares, pose_error
 from poekin.formulas.kinematics import (
     columns,
     derivatives,
@@ -101,8 +121,167 @@ OPPOSITE = tuple(-x for x in UNTURNED)
 FRAME_AXES = ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
 SLIDING = [[0.0] * N for _ in range(3)] + AXES[3:]
 
+# arms of joints that need no decimals, so that the exact kind meets the same arm
+WRIST_AXES = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (0.0, 1.0, 0.0))
+WRIST_STEPS = ((0.25, 0.125, 0.5), (0.0, 0.25, 1.0), (0.75, 0.0, 0.125))
+UR_AXES = (
+    (0.0, 0.0, 1.0),
+    *[(0.0, 1.0, 0.0)] * 3,
+    (0.0, 0.0, -1.0),
+    (0.0, 1.0, 0.0),
+)
+UR_STEPS = (
+    (0.0, 0.0, 0.0),
+    (0.0, 0.125, 0.0),
+    (0.5, 0.0, 0.0),
+    (0.5, 0.0, 0.0),
+    (0.0, 0.125, 0.0),
+    (0.0, 0.0, -0.125),
+)
+REACHED = (0.5, 0.25, 0.375)
+CIRCLES = ((0.5, -0.25, 0.75, 0.375, 0.25), (0.125, 0.625, -0.25, 0.5, 0.375))
+CONICS = (
+    (0.7, -0.3, 0.2, 0.4, -0.1, -0.3),  # two points
+    (1.0, 0.3, -0.8, 0.1, -0.2, 0.05),  # four
+    (1.0, 0.3, 0.8, 0.1, -0.2, 3.0),  # none
+    (0.2, 0.4, 0.2, 0.5, -0.25, 0.125),  # a parabola
+    (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+)
+FIRST_LINE = (0.5, -0.25, 0.75, 0.0, 0.375)  # a c + a' s + b t = d
+ALONG_NO_LINE = (0.5, -0.25, 0.0, 0.0, 0.375)
+SECOND_LINES = (
+    (0.125, 0.625, -0.25, 0.5, 0.375),
+    (0.125, 0.625, -0.25, -0.5, -0.375),
+    (0.125, 0.625, -0.25, 0.0, 0.375),
+)
+TWO_LINES = (
+    (0.125, 0.5, 0.625, -0.5, 0.375),  # two roots
+    (0.125, 0.5, 0.625, -0.5, 9.0),  # none
+    (0.125, 0.0, 0.625, 0.0, 0.375),
+    (1.0, 0.0, 1.5, 0.0, 0.5),  # parallel lines
+)
+ONE_ROOT = (0.125, 0.5, 0.625, -0.5, 0.375)  # on the line (1, 0, 1, 0, d), where the squares go out
+THREE_JOINTS = [
+    (first, second, third)
+    for first in (False, True)
+    for second in (False, True)
+    for third in (False, True)
+]
+ACROSS_PLANE = ((0.6, 0.0, 0.8), (0.8, 0.0, -0.6), (0.0, 0.0, 1.0))
 
+
+def planar_axes(slides):
+    """`UR_AXES` of which the second to the fourth are prismatic where told so."""
+    middle = [
+        slide_axis if slide else (0.0, 1.0, 0.0)
+        for slide, slide_axis in zip(slides, ACROSS_PLANE, strict=True)
+    ]
+    return (UR_AXES[0], *middle, *UR_AXES[4:])
+
+
+# a loop of six revolute joints; what is written into rows begins as zeros
+LOOP = np.random.default_rng(7)
+LOOP_AXES = tuple(
+    tuple(map(float, axis / np.linalg.norm(axis))) for axis in LOOP.normal(size=(6, 3))
+)
+LOOP_STEPS = tuple(tuple(map(float, step)) for step in LOOP.normal(size=(5, 3)))
+LINE = (V, LOOP_AXES[2])
+LOOP_POINTS = (0.6, 0.8, 0.28, -0.96, -0.8, 0.6)
+SIGMA = LOOP.normal(size=162).tolist()
+VECTOR = LOOP.normal(size=12).tolist()
+MATRIX = LOOP.normal(size=144).tolist()
+ORDER = (3, 1, 7, 3, 11, 5, 8, 7, 8, 10, 10, 11)
+FOURIER = LOOP.normal(size=17).tolist()
+POLAR_FORMS = circle_roots.TABLE
+SEEN_VALUES = LOOP.normal(size=circle_roots.SAMPLES).tolist()
+ROOT_ROOM = ([0.0] * circle_roots.SCRATCH, [0.0] * (2 * circle_roots.ROOM))
+
+
+POSE = [[1.0, 0.0, 0.0, 0.3], [0.0, 1.0, 0.0, -0.2], [0.0, 0.0, 1.0, 0.5], [0.0, 0.0, 0.0, 1.0]]
+TURNED_POSE = [[0.6, -0.8, 0.0, 0.1], [0.8, 0.6, 0.0, 0.4], *POSE[2:]]
 CASES = [
+    (circle_roots.half_of_sample, POLAR_FORMS, 3),
+    (circle_roots.fourier, POLAR_FORMS, SEEN_VALUES, [0.0] * 17),
+    (circle_roots.value_and_slope, FOURIER, 0.6, 0.8),
+    (circle_roots.collect, POLAR_FORMS, FOURIER, 1e-14, *ROOT_ROOM),
+    *[(f, *a) for f in (joints.unit, joints.doubled) for a in ((0.3, -0.4), (0.0, 0.0))],
+    *[(joints.outer, v) for v in (VECTOR, VECTOR[::-1])],
+    (joints.second, LOOP_AXES, LOOP_STEPS, *LINE, W, LONG),
+    (joints.every, LOOP_AXES, LOOP_STEPS, *LINE, R1, W, LOOP_POINTS),
+    (joints.first, LOOP_AXES[0], V, W, LONG, LOOP_AXES[1]),
+    (line_equations.moments, V, W, [0.0] * 16, 2),
+    (line_equations.quarter_turns, LOOP_AXES[0], V),
+    (line_equations.eliminate, LOOP_AXES, LOOP_STEPS, *LINE, [0.0] * 210, [0.0] * 162),
+    (line_equations.near_side, LOOP_AXES, LOOP_STEPS, *LINE, [0.0] * 126),
+    (null_rows.fill, MATRIX[:112] + [0.0] * 98),
+    (resultant.matrix, SIGMA, (0.36, 0.48, 0.64), [0.0] * 144),
+    (resultant.factor, MATRIX, [0] * 12),
+    *[(f, MATRIX, ORDER, VECTOR) for f in (resultant.solve, resultant.solve_transposed)],
+    *[(circle_conic.roots, *conic) for conic in CONICS],
+    *[(circle_conic.points, conic, 16.0) for conic in CONICS],
+    (circle_conic.derivatives, CONICS[0], 0.6, 0.8),
+    *[(circle_line.roots, 0.3, -0.4, d) for d in (0.1, 0.7, -0.7)],
+    *[(circle_line.roots, 0.0, 0.0, d) for d in (0.0, 1.0)],
+    *[
+        (f, (0.0, 0.6, 0.8), V, (1.0, 0.0, 0.0), b)
+        for f in (cones.roots,)
+        for b in ((0.5, -2.0, 1.0), (-2.0, 0.5, 1.0))
+    ],
+    (cones.roots, (0.0, 0.6, 0.8), V, (0.0, 0.6, 0.8), W),
+    (cones.rotation_pair, (0.0, 0.6, 0.8), V, (1.0, 0.0, 0.0), W, LONG),
+    (orientation.roots, ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (1.0, 0.0, 0.0), R1),
+    (position.turned_component, W, (0.0, 0.6, 0.8), V),
+    *[(position.roots, WRIST_AXES, WRIST_STEPS, p) for p in (REACHED, (5.0, 0.5, 0.5))],
+    *[(rotation_onto.rotation_onto, (0.0, 0.6, 0.8), V, b) for b in (W, (0.0, 0.0, 0.0))],
+    (rotation_onto.rotated, (0.0, 0.6, 0.8), 0.28, 0.96, V),
+    *[(rounding.is_rounding, x, 1.0) for x in (0.0, 0.5)],
+    *[(rounding.least, x, 1.0) for x in (0.5, 1.5)],
+    (three_parallel.outer, UR_AXES, UR_STEPS, R1, REACHED),
+    *[
+        (
+            three_parallel.with_outer,
+            UR_AXES,
+            UR_STEPS,
+            (1.0, 0.0, 0.0),
+            R1,
+            REACHED,
+            (0.6, 0.8, c, 0.28, margin),
+        )
+        for c, margin in ((0.96, 0.5), (-0.96, -0.5))
+    ],
+    (two_circles.roots, *CIRCLES),
+    (two_circles.roots, CIRCLES[0], (0.5, -0.25, 0.75, 0.375, 2.0)),
+    (two_circles.roots, CIRCLES[0], CIRCLES[0]),
+    (two_circles.roots, (0.5, -0.25, 0.0, 0.0, 0.25), (0.0, 0.0, -0.25, 0.5, 0.375)),
+    *[(circle_and_line.roots, FIRST_LINE, second) for second in SECOND_LINES],
+    *[(circle_and_line.roots, ALONG_NO_LINE, second) for second in SECOND_LINES],
+    *[
+        (
+            planar.with_outer,
+            slides,
+            planar_axes(slides),
+            UR_STEPS,
+            (0.0, 1.0, 0.0),
+            (1.0, 0.0, 0.0),
+            R1,
+            REACHED,
+            (0.6, 0.8, 0.96, 0.28, 0.5),
+        )
+        for slides in THREE_JOINTS[1:-1]
+    ],
+    *[(quadratic.roots, 0.5, h, -0.25) for h in (0.75, -0.75)],
+    *[(quadratic.roots, 0.5, 0.25, e) for e in (0.75, 0.125)],
+    (quadratic.roots, 0.5, 0.0, 0.0),
+    *[(slides_position.roots, slides, WRIST_AXES, WRIST_STEPS, REACHED) for slides in THREE_JOINTS],
+    *[(slides_position.across, w) for w in (W, V, (0.0, 0.6, 0.8))],
+    *[
+        (f, slide, (0.0, 0.6, 0.8), 0.28, 0.96, V)
+        for f in (slides_position.moved, slides_position.moved_back)
+        for slide in (False, True)
+    ],
+    *[(two_lines.roots, (0.5, 0.0, 0.75, 0.0, 0.375), second) for second in TWO_LINES],
+    (two_lines.roots, (1.0, 0.0, 1.0, 0.0, 0.375), ONE_ROOT),
+    (two_lines.roots, (0.0, 0.0, 0.0, 0.0, 0.375), TWO_LINES[0]),
     *[(f, V, W) for f in (algebra.add, algebra.subtract, algebra.dot, algebra.cross)],
     (algebra.scale, 0.3, V),
     (algebra.rotate, R1, V),
@@ -227,6 +406,8 @@ CASES = [
     (pose_error.across, W, V),
     (pose_error.keep_in_plane, W, AXES, N),
     (least_squares.solve, SQUARE, ANGLES.tolist(), N),
+    (confirmed.pose_error, POSE, TURNED_POSE),
+    (confirmed.size, X, 0.7),
     (structured.outward, *WALK, 0, rows12()),
     (structured.inward, *WALK, N - 1, rows12()),
     *[(structured.seen_outward, V, *WALK[1:], begin, pairs()) for begin in (0, 2)],
@@ -289,6 +470,26 @@ def test_a_formula_gives_the_same_in_every_kind(case, kind):
 # exp, log and what belongs to them divide and compare: they are not traced, but for what they share
 # with the chains.
 DIVIDE = (
+    circle_conic,
+    circle_line,
+    cones,
+    orientation,
+    position,
+    rotation_onto,
+    rounding,
+    three_parallel,
+    two_circles,
+    confirmed,
+    circle_roots,
+    joints,
+    line_equations,
+    null_rows,
+    resultant,
+    circle_and_line,
+    planar,
+    quadratic,
+    slides_position,
+    two_lines,
     damped_step,
     least_squares,
     pose_error,
@@ -332,6 +533,8 @@ def test_every_formula_is_among_the_cases():
         for name, f in inspect.getmembers(module, inspect.isfunction)
         if f.__module__ == module.__name__ and not name.startswith("_")
     }
+    # which is given a function: tests/formulas/inverse/test_confirmed.py, tests/formats/emit_ik
+    public.discard(confirmed.select)
     assert public - {case[0] for case in CASES} == set()
 
 

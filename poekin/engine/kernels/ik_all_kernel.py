@@ -82,21 +82,47 @@ def is_same(problem, target, ends, periods, limit, work):
     return is_accepted(position, rotation, limit)
 
 
-def is_singular(ones, work):
-    """Whether the Jacobian of `work` has nearly dependent columns."""
+def is_singular(ones, free, work):
+    """Whether the Jacobian of `work` has nearly dependent columns; `free` (m) is 1 for those that
+    count. The pivots of J^T J stay on the diagonal of H.
+    """
     J = work.J
     H = work.H
     rows = work.rows
     m = J.shape[1]
     store_row(rows[ERROR], (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    least_squares.normal_equations(J, rows[ERROR], ones, 1e-30, ones, m, H, rows[STEP])
+    least_squares.normal_equations(J, rows[ERROR], ones, 1e-30, free, m, H, rows[STEP])
     least_squares.solve(H, rows[STEP], m)
-    low = H[0, 0]
-    high = H[0, 0]
-    for i in range(1, m):
-        low = min(low, H[i, i])
-        high = max(high, H[i, i])
+    low = math.inf
+    high = 0.0
+    for i in range(m):
+        if free[i] != 0.0:
+            low = min(low, H[i, i])
+            high = max(high, H[i, i])
     return low < _SINGULAR * high
+
+
+def condition_bound(free, work):
+    """Lower bound of the smallest singular value of the Jacobian over the largest, by the pivots
+    that `is_singular` left.
+
+    The product of the squared values is that of the pivots; the n - 1 largest are at most their
+    mean to the power n - 1, and the largest is at most their sum, which is the trace of J^T J.
+    """
+    J = work.J
+    trace = 0.0
+    product = 1.0
+    count = 0
+    for i in range(J.shape[1]):
+        if free[i] != 0.0:
+            count += 1
+            product *= max(work.H[i, i], 0.0)
+            for r in range(6):
+                trace += J[r, i] * J[r, i]
+    if count < 2 or trace == 0.0:
+        return float(count) * min(trace, 1.0)
+    product *= (count - 1.0) ** (count - 1.0) / trace**count
+    return math.sqrt(product)
 
 
 def is_enough(hits, singular, count, each, pairs):
@@ -135,7 +161,7 @@ def is_over(attempts, count, rule):
     return attempts >= int(rule[RESTARTS])
 
 
-@kernel("int w3 w3 w1 w2 w2 w1 w1 w1 w1 int w3 w2 w2")
+@kernel("int w3 w3 w1 w2 w2 w1 w1 w2 w1 w1 w1 int w3 w2 w2 w2")
 def search(
     arm,
     targets,
@@ -144,26 +170,31 @@ def search(
     limits,
     ranges,
     periods,
+    free,
+    locked_values,
     options,
     rule,
     indices,
     seed,
     q,
     hits,
+    bounds,
     info,
 ):
     """Solutions of targets (N, 4, 4) into q (N, room, m), how often each was found into hits (N,
-    room).
+    room), the `condition_bound` of each into bounds (N, room).
 
     Each target is tried from its first given[k] of starts[k] (S, m) and then from random places in
     `ranges` (m, 2) as long as `rule` asks for; `periods` (m) are those of the coordinates, 0 for
-    none, `indices` (N) the targets' own numbers, on which the random starts depend.
+    none, `indices` (N) the targets' own numbers, on which the random starts depend. Coordinates that are
+    not free (m) stay at the target's `locked_values` (N, m); the given starts have these values.
     Solutions of six equations in six unknowns come in pairs but for double ones, so an odd number
     means one of these, or that one is missing.
     """
     m = q.shape[2]
-    problem = KernelProblem(arm, limits, np.zeros(m), options)
+    problem = KernelProblem(arm, limits, 1.0 - free, options)
     work = scratch_of_try(m)
+    pairs = free.sum() == 6.0
     trial = np.empty(m)
     middle = np.empty(m)
     ones = np.ones(6)
@@ -180,11 +211,13 @@ def search(
         attempt = 0
         while not full and not is_over(attempt - first, count, rule):
             tried = attempt > first and count > 0
-            if tried and is_enough(hits[k], singular, count, rule[MIN_HITS], m == 6):
+            if tried and is_enough(hits[k], singular, count, rule[MIN_HITS], pairs):
                 break
             for i in range(m):
                 if attempt < first:
                     trial[i] = starts[k, attempt, i]
+                elif free[i] == 0.0:
+                    trial[i] = locked_values[k, i]
                 else:
                     state = next_random(state)
                     trial[i] = uniform(state, ranges[i])
@@ -192,7 +225,7 @@ def search(
             if not reach(problem, target, trial, limit, work):
                 continue
             ends += 1.0
-            bad = is_singular(ones, work)
+            bad = is_singular(ones, free, work)
             for i in range(m):
                 trial[i] = wrapped_difference(trial[i], periods[i])
             j = 0
@@ -214,6 +247,7 @@ def search(
                 members += int(bad)
                 store_row(q[k, count], trial)
                 hits[k, count] = 1.0
+                bounds[k, count] = condition_bound(free, work)
                 count += 1
             else:
                 full = True

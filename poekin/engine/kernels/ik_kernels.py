@@ -247,6 +247,44 @@ def solve_many(arm, targets, q0, limits, ranges, fixed, options, indices, seed, 
                 break
 
 
+def is_within(q, limits):
+    """Whether a configuration is finite and within its limits."""
+    inside = True
+    for i in range(len(q)):
+        inside &= limits[i, 0] <= q[i] <= limits[i, 1] and not math.isinf(q[i])
+    return inside
+
+
+@kernel("int w2 r2 r1 w2 w1 w1 w1 w1 w1 w1", returns="int", quick=True)
+def solve_one(arm, table, target, q0, limits, fixed, options, tolerances, periods, q, info):
+    """Whether the first try from q0 (m,) reaches a target (4, 4) by `Chain.fk`: q and info then.
+
+    Coordinates with a period, `periods` (m), end within half of it from 0. All else is left to
+    `solve_many`: 0 is returned.
+    """
+    if not (is_finite(target) and is_within(q0, limits)):
+        return 0
+    for i in range(len(q)):
+        q[i] = q0[i]
+    work = scratch_of_try(len(q))
+    problem = KernelProblem(arm, limits, fixed, options)
+    ended, _, _, taken = descend(problem, target, q, work)
+    if ended != SOLVED:
+        return 0
+    for i in range(len(q)):
+        if periods[i] > 0.0:
+            q[i] -= periods[i] * np.rint(q[i] / periods[i])
+    sines, cosines, shifts = scratch(table)
+    set_motions(table, q, sines, cosines, shifts)
+    T = work.T
+    store_matrix(T, forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
+    axis = options[AXIS : AXIS + 3]
+    none = work.J[:, :0]
+    position, rotation = error_parts(int(options[TASK]), axis, T, target, none, work.rows[0])
+    set_info(info, position, rotation, taken, ended)
+    return int(position <= tolerances[0] and rotation <= tolerances[1])
+
+
 @kernel("w2 w2 w3 int w1 w2")
 def pose_errors(table, q, targets, task, axis, errors):
     """|p* - p| (m) and the angle (rad) between the targets and the poses of q, by the kernels of

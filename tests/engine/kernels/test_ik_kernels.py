@@ -471,11 +471,64 @@ def test_columns_are_nearly_dependent_below_1e_5_of_each_other(m):
         for small, singular in ((1.1e-5, False), (0.9e-5, m > 1)):
             sizes = np.ones(m)
             sizes[k] = small
-            assert ik_all_kernel.is_singular(ones, work._replace(J=U * sizes)) == singular
+            assert (
+                ik_all_kernel.is_singular(ones, np.ones(m), work._replace(J=U * sizes)) == singular
+            )
     if m > 1:
         J = U.copy()
         J[:, -1] = J[:, 0] + 1e-9 * J[:, -1]
-        assert ik_all_kernel.is_singular(ones, work._replace(J=J))
+        assert ik_all_kernel.is_singular(ones, np.ones(m), work._replace(J=J))
+
+
+@pytest.mark.parametrize("m", [2, 4, 6, 7])
+def test_a_bound_of_the_condition_is_one_and_locked_columns_do_not_count(m):
+    rng = np.random.default_rng(m)
+    work, ones = ik_kernels.scratch_of_try(m), np.ones(6)
+    for _ in range(100):
+        J = rng.normal(size=(6, m)) * 10.0 ** rng.uniform(-3, 3, m)
+        free = np.ones(m)
+        free[rng.integers(m)] = 0.0
+        if m < 7 and rng.random() < 0.5:
+            free[:] = 1.0
+        work = work._replace(J=J)
+        ik_all_kernel.is_singular(ones, free, work)
+        sizes = np.linalg.svd(J[:, free > 0], compute_uv=False)
+        # squares: the pivots are known to u times the squared condition
+        bound = ik_all_kernel.condition_bound(free, work) ** 2
+        exact = (sizes[-1] / sizes[0]) ** 2
+        assert bound <= exact + 64 * 2.0**-53 * m
+    J = np.eye(6)[:, :m] if m < 7 else np.eye(6)[:, [0, 1, 2, 3, 4, 5, 5]]
+    free = np.ones(m)
+    free[6:] = 0.0
+    work = work._replace(J=J)
+    assert not ik_all_kernel.is_singular(ones, free, work)
+    n = min(m, 6)
+    expected = ((n - 1) ** (n - 1) / n**n) ** 0.5
+    assert ik_all_kernel.condition_bound(free, work) == pytest.approx(expected)
+
+
+def test_a_locked_coordinate_starts_every_try_at_its_own_value_of_the_target(monkeypatch):
+    begun: list[list[float]] = []
+
+    def descend(problem: Any, target: Any, q: np.ndarray, *rest: Any) -> tuple[int, ...]:
+        assert problem.fixed.tolist() == [0, 1, 0, 0]
+        begun.append(q.tolist())
+        return codes.SOLVED, 0, 0, 1
+
+    monkeypatch.setattr(ik_all_kernel, "descend", descend)
+    monkeypatch.setattr(ik_all_kernel, "is_singular", lambda *rest: False)
+    rule = np.zeros(ik_all_kernel.RULE)
+    rule[ik_all_kernel.RESTARTS] = 3
+    rule[ik_all_kernel.MIN_HITS] = 99
+    rule[ik_all_kernel.MAX_MISSES] = 9
+    values = np.full((2, 4), np.nan)
+    values[:, 1] = 0.25, -0.5
+    ik_all_kernel.search.function(
+        ARM, np.stack([TARGET] * 2), np.zeros((2, 0, 4)), np.zeros(2), WIDE, RANGES, PERIODS,
+        np.array([1.0, 0, 1, 1]), values, options(), rule, np.arange(2.0), 9, np.zeros((2, 8, 4)), np.zeros((2, 8)),
+        np.zeros((2, 8)), np.zeros((2, ik_all_kernel.INFO))
+    )  # fmt: skip
+    assert [q[1] for q in begun] == [0.25] * 3 + [-0.5] * 3
 
 
 def test_solutions_were_found_often_enough():
@@ -513,11 +566,12 @@ class Search:
             lambda problem, target, ends, *rest: bool(np.abs(ends[0] - ends[1]).max() < 1e-3),
         )
         self.q, self.hits = np.zeros((1, room, 4)), np.zeros((1, room))
+        self.bounds = np.zeros((1, room))
         self.info = np.full((1, ik_all_kernel.INFO), -1.0)
         starts = np.stack([Q + 50, Q + 60, Q + 70])[None]
         ik_all_kernel.search.function(
-            ARM, TARGET[None], starts, np.array([given]), WIDE, RANGES, PERIODS, options(), self.rule, np.array([3.0]),
-            9, self.q, self.hits, self.info
+            ARM, TARGET[None], starts, np.array([given]), WIDE, RANGES, PERIODS, np.ones(4), np.full((1, 4), np.nan),
+            options(), self.rule, np.array([3.0]), 9, self.q, self.hits, self.bounds, self.info
         )  # fmt: skip
 
     def _descend(

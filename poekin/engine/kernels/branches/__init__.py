@@ -1,0 +1,1 @@
+"""Kernels of inverse kinematics in closed form."""

@@ -1,0 +1,150 @@
+"""The loop that six revolute joints close, read from either end and begun at any joint.
+
+Arm: the table (9, 9) of `elimination_kernels`.
+"""
+
+import math
+
+from ....algebra import (
+    add,
+    compose,
+    cross,
+    dot,
+    inverse,
+    make_pose,
+    rotate,
+    scale,
+    subtract,
+    transform,
+)
+from ...jit.array_io import load_matrix
+
+UNIT = 0
+REVERSED = 1
+BEGIN = 2
+
+
+def _vector(row, start):
+    return (
+        row[start],
+        row[start + 1],
+        row[start + 2],
+    )
+
+
+def nine(numbers):
+    """Nine numbers of a row, or of a pose, as a rotation."""
+    return (
+        numbers[0],
+        numbers[1],
+        numbers[2],
+        numbers[3],
+        numbers[4],
+        numbers[5],
+        numbers[6],
+        numbers[7],
+        numbers[8],
+    )
+
+
+def motion(arm, target):
+    """G of e_1 ... e_6 = G in the arm's unit of length."""
+    T = load_matrix(target)
+    tip = _vector(arm[6], 3)
+    for i in range(6):
+        tip = add(tip, _vector(arm[i], 3))
+    home = make_pose(nine(arm[7]), tip)
+    return compose(T, inverse(home))
+
+
+def loop(arm, G, axes):
+    """Writes directions and points of the six axes in the order of the loop, its second axis's point
+    the origin, and returns the motion they make.
+    """
+    how = arm[8]
+    unit = 1.0 / how[UNIT]
+    begin = int(how[BEGIN])
+    is_reversed = how[REVERSED] != 0.0
+    o = (0.0, 0.0, 0.0)
+    for i in range(6):
+        o = add(o, _vector(arm[i], 3))
+        h = _vector(arm[i], 0)
+        k = i
+        if is_reversed:
+            h = scale(-1.0, h)
+            k = 5 - i
+        k = (k - begin) % 6
+        _store(axes[k], h, o)
+    if is_reversed:
+        G = inverse(G)
+    back = inverse(G)
+    for k in range(6 - begin, 6):
+        h = rotate(back, _direction(axes, k))
+        o = transform(back, point(axes, k))
+        _store(axes[k], h, o)
+    origin = point(axes, 1)
+    for k in range(6):
+        h = _direction(axes, k)
+        o = subtract(point(axes, k), origin)
+        _store(axes[k], h, scale(unit, o))
+    moved = subtract(transform(G, origin), origin)
+    return make_pose(nine(G), scale(unit, moved))
+
+
+def _direction(axes, k):
+    return _vector(axes[k], 0)
+
+
+def point(axes, k):
+    """A point of the k-th axis."""
+    return _vector(axes[k], 3)
+
+
+def _store(row, h, o):
+    for j in range(3):
+        row[j] = h[j]
+        row[3 + j] = o[j]
+
+
+def directions(axes):
+    """Directions of the six axes."""
+    return (
+        _direction(axes, 0),
+        _direction(axes, 1),
+        _direction(axes, 2),
+        _direction(axes, 3),
+        _direction(axes, 4),
+        _direction(axes, 5),
+    )
+
+
+def _step(axes, i):
+    begin = point(axes, i)
+    end = point(axes, i + 1)
+    return subtract(end, begin)
+
+
+def steps(axes):
+    """Steps from each axis's point to the next one's."""
+    return (
+        _step(axes, 0),
+        _step(axes, 1),
+        _step(axes, 2),
+        _step(axes, 3),
+        _step(axes, 4),
+    )
+
+
+def across_of(h):
+    """A unit vector across another one."""
+    x = abs(h[0])
+    y = abs(h[1])
+    z = abs(h[2])
+    least = (0.0, 0.0, 1.0)
+    if x <= min(y, z):
+        least = (1.0, 0.0, 0.0)
+    elif y <= z:
+        least = (0.0, 1.0, 0.0)
+    a = cross(h, least)
+    length = math.sqrt(dot(a, a))
+    return scale(1.0 / length, a)

@@ -1,0 +1,228 @@
+"""Expressions of a function: Python's syntax tree to C, with the types and what is known."""
+
+from __future__ import annotations
+
+import ast
+import operator
+
+from .c_types import BOOL, DOUBLE, INT, CRow, CScalar, CTable, CTuple, unify
+from .values import (
+    AND,
+    EQUAL,
+    LESS,
+    OR,
+    PRODUCT,
+    SUM,
+    UNARY,
+    CValue,
+    as_double,
+    binary,
+    is_number,
+    scalar,
+)
+from .writer import Writer
+
+_ARITHMETIC = {
+    ast.Add: ("+", SUM, operator.add),
+    ast.Sub: ("-", SUM, operator.sub),
+    ast.Mult: ("*", PRODUCT, operator.mul),
+    ast.Div: ("/", PRODUCT, operator.truediv),
+    ast.Mod: ("%", PRODUCT, operator.mod),
+}
+_COMPARISONS = {
+    ast.Lt: ("<", LESS, operator.lt),
+    ast.LtE: ("<=", LESS, operator.le),
+    ast.Gt: (">", LESS, operator.gt),
+    ast.GtE: (">=", LESS, operator.ge),
+    ast.Eq: ("==", EQUAL, operator.eq),
+    ast.NotEq: ("!=", EQUAL, operator.ne),
+}
+
+
+class ExpressionWriter(Writer):
+    """Operators, names and conditions."""
+
+    def test(self, node: ast.expr) -> CValue:
+        """An expression as a condition."""
+        return self.truth(node, self.expression(node))
+
+    def truth(self, node: ast.AST, value: CValue) -> CValue:
+        """Whether a number is not 0."""
+        if value.type == BOOL:
+            return value
+        if not is_number(value.type):
+            self.refuse(node, "a condition that is no number")
+        if value.known:
+            return scalar(bool(value.constant), BOOL, value.fixed)
+        return binary("!=", value, scalar(0, value.type), BOOL, EQUAL)
+
+    def _constant(self, node: ast.Constant) -> CValue:
+        if not isinstance(node.value, (bool, int, float)):
+            self.refuse(node, f"the constant {node.value!r}")
+        return self.constant(node, node.value, "")
+
+    def _name(self, node: ast.Name) -> CValue:
+        name = node.id
+        if name in self.known:
+            return self.known[name]
+        if name in self.types:
+            self.read.add(name)
+            return CValue(self.types[name], self.c_name(name), root=self.roots.get(name, ""))
+        if self.source.stores.get(name, 0) or name in self.source.parameters:
+            self.refuse(node, f"the use of {name} before it has a value")
+        return self.constant(node, self.python_value(node), name)
+
+    def _attribute(self, node: ast.Attribute) -> CValue:
+        if node.attr == "shape":
+            of = self.expression(node.value).type
+            if isinstance(of, CRow):
+                return self.make_tuple([scalar(of.length, INT)])
+            if isinstance(of, CTable):
+                return self.make_tuple([scalar(of.rows, INT), scalar(of.columns, INT)])
+        return self.constant(node, self.python_value(node), node.attr)
+
+    def _tuple(self, node: ast.Tuple) -> CValue:
+        items = self.listed(node.elts)
+        if not items:
+            self.refuse(node, "an empty tuple")
+        return self.make_tuple(items)
+
+    def listed(self, nodes: list[ast.expr]) -> list[CValue]:
+        """Values of a list of expressions, those with a star unpacked."""
+        found = []
+        for node in nodes:
+            if isinstance(node, ast.Starred):
+                found += self.items(self.expression(node.value))
+            else:
+                found.append(self.expression(node))
+        return found
+
+    def _unaryop(self, node: ast.UnaryOp) -> CValue:
+        if isinstance(node.op, ast.Not):
+            value = self.test(node.operand)
+            if value.known:
+                return scalar(not value.constant, BOOL, value.fixed)
+            return CValue(BOOL, f"!{value.within(UNARY + 1)}", UNARY)
+        value = self.expression(node.operand)
+        if isinstance(node.op, ast.Invert) or not is_number(value.type):
+            self.refuse(node, f"the operator {type(node.op).__name__} here")
+        if isinstance(node.op, ast.UAdd):
+            return value
+        if value.known:
+            return scalar(-value.constant, value.type, value.fixed)
+        return CValue(value.type, f"-{value.within(UNARY + 1)}", UNARY)
+
+    def _binop(self, node: ast.BinOp) -> CValue:
+        a = self.expression(node.left)
+        b = self.expression(node.right)
+        return self.arithmetic(node, node.op, a, b)
+
+    def arithmetic(self, node: ast.AST, op: ast.operator, a: CValue, b: CValue) -> CValue:
+        """a op b of numbers, or the sum of two tuples."""
+        if isinstance(op, ast.Add) and isinstance(a.type, CTuple) and isinstance(b.type, CTuple):
+            return self.make_tuple(self.items(a) + self.items(b))
+        entry = _ARITHMETIC.get(type(op))
+        numbers = isinstance(a.type, CScalar) and isinstance(b.type, CScalar)
+        if entry is None or not numbers:
+            self.refuse(node, f"the operator {type(op).__name__} here")
+        sign, binds, function = entry
+        if a.known and b.known and b.constant != 0:
+            value = function(a.constant, b.constant)
+            return self.constant(node, value, "", a.fixed or b.fixed)
+        whole = a.type != DOUBLE and b.type != DOUBLE and not isinstance(op, ast.Div)
+        if isinstance(op, ast.Mod):
+            if not whole or not b.known or b.constant <= 0:
+                self.refuse(node, "% but of an integer by a known integer above 0")
+            # Python's rest is never negative
+            a = binary("+", binary("%", a, b, INT, PRODUCT), b, INT, SUM)
+            return binary("%", a, b, INT, PRODUCT)
+        if whole:
+            return binary(sign, a, b, INT, binds)
+        return binary(sign, as_double(a), as_double(b), DOUBLE, binds)
+
+    def _compare(self, node: ast.Compare) -> CValue:
+        operands = [self.expression(node.left)]
+        for op, operand in zip(node.ops, node.comparators, strict=True):
+            if isinstance(op, (ast.In, ast.NotIn)):
+                return self._among(node, operands[0], operand)
+            operands.append(self.expression(operand))
+        operands[1:-1] = [self.held(value) for value in operands[1:-1]]
+        result = None
+        for k, op in enumerate(node.ops):
+            found = self._compared(node, op, operands[k], operands[k + 1])
+            result = found if result is None else self._joined("&&", AND, result, found)
+        if result is None:
+            self.refuse(node, "a comparison of nothing")
+        return result
+
+    def _compared(self, node: ast.AST, op: ast.cmpop, a: CValue, b: CValue) -> CValue:
+        if isinstance(op, ast.Eq) and isinstance(a.type, CTuple) and isinstance(b.type, CTuple):
+            return self._same_tuple(node, a, b)
+        entry = _COMPARISONS.get(type(op))
+        if entry is None or not isinstance(a.type, CScalar) or not isinstance(b.type, CScalar):
+            self.refuse(node, f"the comparison {type(op).__name__} here")
+        sign, binds, function = entry
+        if a.known and b.known:
+            return scalar(function(a.constant, b.constant), BOOL, a.fixed or b.fixed)
+        if DOUBLE in (a.type, b.type):
+            a = as_double(a)
+            b = as_double(b)
+        return binary(sign, a, b, BOOL, binds)
+
+    def _same_tuple(self, node: ast.AST, a: CValue, b: CValue) -> CValue:
+        """Whether the items of two tuples are equal, and as many."""
+        first = self.items(a)
+        second = self.items(b)
+        result = scalar(len(first) == len(second), BOOL)
+        for one, other in zip(first, second, strict=False):
+            found = self._compared(node, ast.Eq(), one, other)
+            result = self._joined("&&", AND, result, found)
+        return result
+
+    def _among(self, node: ast.Compare, value: CValue, where: ast.expr) -> CValue:
+        """value in (a, b, ...)."""
+        if (
+            len(node.ops) > 1
+            or not isinstance(where, ast.Tuple)
+            or isinstance(node.ops[0], ast.NotIn)
+        ):
+            self.refuse(node, "`in` but of a tuple that is written there")
+        value = self.held(value)
+        result = scalar(False, BOOL)
+        for item in self.listed(where.elts):
+            found = self._compared(node, ast.Eq(), value, item)
+            result = self._joined("||", OR, result, found)
+        return result
+
+    def _joined(self, sign: str, binds: int, a: CValue, b: CValue) -> CValue:
+        """a && b or a || b of truth values."""
+        ends = sign == "||"
+        for one, other in ((a, b), (b, a)):
+            if one.known:
+                return one if bool(one.constant) == ends else other
+        return binary(sign, a, b, BOOL, binds)
+
+    def _boolop(self, node: ast.BoolOp) -> CValue:
+        sign, binds = ("&&", AND) if isinstance(node.op, ast.And) else ("||", OR)
+        result = None
+        for operand in node.values:
+            if result is not None and result.known and bool(result.constant) == (sign == "||"):
+                break
+            found = self.test(operand)
+            result = found if result is None else self._joined(sign, binds, result, found)
+        if result is None:
+            self.refuse(node, "a condition of nothing")
+        return result
+
+    def _ifexp(self, node: ast.IfExp) -> CValue:
+        test = self.test(node.test)
+        if test.known:
+            return self.expression(node.body if test.constant else node.orelse)
+        a = self.expression(node.body)
+        b = self.expression(node.orelse)
+        kind = unify(a.type, b.type)
+        if kind is None:
+            self.refuse(node, "a value of two types")
+        a = self.converted(node, a, kind)
+        b = self.converted(node, b, kind)
+        return CValue(kind, f"{test.within(OR)} ? {a.within(OR)} : {b.within(OR)}", 0)

@@ -1,0 +1,248 @@
+"""State of a function that is written as C: its lines, its names, tuples, rows and their items."""
+
+from __future__ import annotations
+
+import ast
+from types import ModuleType
+from typing import Any, NoReturn
+
+import numpy as np
+
+from .c_types import (
+    BOOL,
+    DOUBLE,
+    INT,
+    CRow,
+    CScalar,
+    CTable,
+    CTuple,
+    CType,
+    Structures,
+    type_of_constant,
+)
+from .function_source import FunctionSource
+from .values import PRIMARY, SUM, UNARY, UNKNOWN, CValue, as_double, initial, member, scalar
+
+# names that math.h or C itself has
+_WORDS = """
+auto break case char const continue default do double else enum extern float for goto if inline
+int long register restrict return short signed sizeof static struct switch typedef union unsigned
+void volatile while acos asin atan atan2 cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs
+fdim floor fma fmax fmin fmod frexp gamma hypot ilogb index j0 j1 jn ldexp lgamma log log10 log1p
+log2 logb lrint lround main modf nan nearbyint nextafter pow remainder remquo rint round scalb
+scalbn signbit signgam sin sinh sqrt tan tanh tgamma trunc y0 y1 yn isfinite isinf isnan isnormal
+NAN HUGE_VAL INFINITY
+"""
+RESERVED = frozenset(_WORDS.split())
+
+
+class Writer:
+    """Expressions of one function for arguments of given types."""
+
+    def __init__(self, source: FunctionSource, structures: Structures) -> None:
+        self.source = source
+        self.structures = structures
+        self.types: dict[str, CType] = {}
+        self.known: dict[str, CValue] = {}
+        self.roots: dict[str, str] = {}
+        self.read: set[str] = set()
+        self.lines: list[str] = []
+        self.indent = 1
+        self.temporaries = 0
+
+    def global_constant(self, name: str, value: Any, kind: CType) -> CValue:
+        """A constant of a module that is no number; see `translation_unit`."""
+        raise NotImplementedError
+
+    def refuse(self, node: ast.AST, construct: str) -> NoReturn:
+        """Raise InputError with file and line."""
+        self.source.refuse(node, construct)
+
+    def put(self, text: str) -> None:
+        """A line of C."""
+        self.lines.append("    " * self.indent + text)
+
+    def c_name(self, name: str) -> str:
+        """A local name in C."""
+        if not name.isascii() or name.startswith("_"):
+            self.refuse(self.source.tree, f"the name {name!r}")
+        return f"{name}_" if name in RESERVED else name
+
+    def held(self, value: CValue) -> CValue:
+        """The value with a name, so that its text may stand twice."""
+        if value.simple or isinstance(value.type, (CRow, CTable)):
+            return value
+        self.temporaries += 1
+        name = f"t{self.temporaries}"
+        while name in self.source.stores:
+            name += "_"
+        spelled = self.structures.spell(value.type)
+        self.put(f"const {spelled} {name} = {initial(value.text, spelled)};")
+        return CValue(value.type, name, PRIMARY, value.constant, value.fixed)
+
+    def expression(self, node: ast.expr) -> CValue:
+        """C of an expression."""
+        method = getattr(self, f"_{type(node).__name__.lower()}", None)
+        if method is None:
+            self.refuse(node, f"an expression {type(node).__name__}")
+        return method(node)
+
+    def converted(self, node: ast.AST, value: CValue, kind: CType) -> CValue:
+        """The value as a value of a type that holds it."""
+        if value.type == kind:
+            return value
+        if kind == DOUBLE and isinstance(value.type, CScalar):
+            return as_double(value)
+        if kind == INT and value.type == BOOL:
+            return CValue(INT, value.text, value.binds, value.constant, value.fixed)
+        if isinstance(kind, CTuple) and isinstance(value.type, CTuple):
+            items = [
+                self.converted(node, item, k)
+                for item, k in zip(self.items(value), kind.items, strict=True)
+            ]
+            return self.make_tuple(items)
+        self.refuse(node, "a value of two types")
+
+    def items(self, value: CValue) -> list[CValue]:
+        """Items of a tuple, or numbers of a row."""
+        kind = value.type
+        if value.parts:
+            return list(value.parts)
+        if isinstance(kind, CTuple):
+            value = self.held(value)
+            return [member(value, k) for k in range(len(kind.items))]
+        if isinstance(kind, CRow):
+            return [CValue(DOUBLE, f"{value.within(PRIMARY)}[{k}]") for k in range(kind.length)]
+        raise TypeError(f"expected a tuple, got {kind}")
+
+    def make_tuple(self, items: list[CValue]) -> CValue:
+        """A tuple of values."""
+        kind = CTuple(tuple(item.type for item in items))
+        inner = ", ".join(initial(item.text, self.structures.spell(item.type)) for item in items)
+        braces = f"{{{{{inner}}}}}" if kind.uniform else f"{{{inner}}}"
+        constant = UNKNOWN
+        if all(item.known for item in items):
+            constant = tuple(item.constant for item in items)
+        fixed = constant is not UNKNOWN and any(item.fixed for item in items)
+        text = f"({self.structures.spell(kind)}){braces}"
+        return CValue(kind, text, UNARY, constant, fixed, parts=tuple(items))
+
+    def constant(self, node: ast.AST, value: Any, name: str, fixed: bool = False) -> CValue:
+        """A value that Python knows."""
+        if isinstance(value, (np.floating, np.bool_, np.integer)):
+            value = value.item()
+        kind = type_of_constant(value)
+        if kind is None:
+            self.refuse(node, f"the value {name} of type {type(value).__name__}")
+        if isinstance(kind, CScalar):
+            return scalar(value, kind, fixed and kind != DOUBLE)
+        if name and not fixed:
+            return self.global_constant(name, value, kind)
+        made = self.make_tuple([self.constant(node, item, "", fixed) for item in value])
+        return CValue(made.type, made.text, made.binds, value, made.fixed)
+
+    def python_value(self, node: ast.expr) -> Any:
+        """Value of a module's name, or of a name of a module that it imports."""
+        if isinstance(node, ast.Attribute):
+            owner = self.python_value(node.value)
+            if isinstance(owner, ModuleType) and hasattr(owner, node.attr):
+                return getattr(owner, node.attr)
+            self.refuse(node, f"the attribute {node.attr}")
+        if isinstance(node, ast.Name) and node.id in self.source.names:
+            return self.source.names[node.id]
+        self.refuse(node, f"the name {ast.unparse(node)}")
+
+    def _subscript(self, node: ast.Subscript) -> CValue:
+        value = self.expression(node.value)
+        if isinstance(node.slice, ast.Slice):
+            return self._slice(node, value, node.slice)
+        if isinstance(node.slice, ast.Tuple):
+            for index in node.slice.elts:
+                value = self.item(node, value, self.expression(index))
+            return value
+        return self.item(node, value, self.expression(node.slice))
+
+    def item(self, node: ast.AST, value: CValue, index: CValue) -> CValue:
+        """value[index]."""
+        kind = value.type
+        if index.type == DOUBLE or not isinstance(kind, (CTuple, CRow, CTable)):
+            self.refuse(node, f"an index of {value.text} here")
+        if index.known:
+            length = len(kind.items) if isinstance(kind, CTuple) else rows_of(kind)
+            if not -length <= index.constant < length:
+                self.refuse(node, f"the index {index.constant} of {length}")
+            index = scalar(index.constant % length, INT, index.fixed)
+        constant = UNKNOWN
+        if value.known and index.known:
+            constant = value.constant[index.constant]
+        if isinstance(kind, CTuple):
+            if index.known:
+                return member(value, index.constant)
+            if not kind.uniform:
+                self.refuse(node, "an index that is not known of a tuple of several types")
+            return CValue(kind.items[0], f"{self.held(value).text}.v[{index.text}]")
+        if isinstance(kind, CTable):
+            text = shifted(value, index, kind.columns)
+            binds = PRIMARY if text == value.text else SUM
+            return CValue(CRow(kind.columns), text, binds, constant, value.fixed, value.root)
+        return self._number_of_row(value, index, constant)
+
+    def _number_of_row(self, value: CValue, index: CValue, constant: Any) -> CValue:
+        """A number of a row, at one index of the pointer that the row is counted from."""
+        if constant is not UNKNOWN:
+            known = scalar(float(constant), DOUBLE, value.fixed)
+            return known
+        base, _, offset = value.text.partition(" + ")
+        if not offset:
+            return CValue(DOUBLE, f"{base}[{index.text}]", root=value.root)
+        if offset.isdigit() and index.known:
+            return CValue(DOUBLE, f"{base}[{int(offset) + index.constant}]", root=value.root)
+        text = f"{offset} + {index.text}"
+        if index.known and index.constant == 0:
+            text = offset
+        return CValue(DOUBLE, f"{base}[{text}]", root=value.root)
+
+    def _slice(self, node: ast.Subscript, value: CValue, part: ast.slice | ast.Slice) -> CValue:
+        bounds: list[Any] = [None, None]
+        for k, bound in enumerate((part.lower, part.upper)):  # type: ignore[union-attr]
+            if bound is not None:
+                found = self.expression(bound)
+                if not found.known or found.type == DOUBLE:
+                    self.refuse(node, "a slice whose bounds are not known")
+                bounds[k] = found.constant
+        if part.step is not None:  # type: ignore[union-attr]
+            self.refuse(node, "a slice with a step")
+        kind = value.type
+        if isinstance(kind, CTuple):
+            items = self.items(value)[bounds[0] : bounds[1]]
+            if items:
+                return self.make_tuple(items)
+        if isinstance(kind, (CRow, CTable)):
+            chosen = range(rows_of(kind))[bounds[0] : bounds[1]]
+            start = scalar(chosen.start, INT)
+            wide = kind.columns if isinstance(kind, CTable) else 1
+            text = shifted(value, start, wide)
+            shape = CTable(len(chosen), wide) if isinstance(kind, CTable) else CRow(len(chosen))
+            return CValue(shape, text, PRIMARY if text == value.text else SUM, root=value.root)
+        self.refuse(node, "a slice here")
+
+
+def rows_of(kind: CRow | CTable) -> int:
+    """Length of the first axis."""
+    return kind.rows if isinstance(kind, CTable) else kind.length
+
+
+def shifted(value: CValue, index: CValue, wide: int) -> str:
+    """Pointer to row `index` of rows of `wide` numbers."""
+    if index.known:
+        base, _, offset = value.text.partition(" + ")
+        if index.constant == 0:
+            return value.text
+        if not offset:
+            return f"{base} + {index.constant * wide}"
+        if offset.isdigit():
+            return f"{base} + {int(offset) + index.constant * wide}"
+        return f"{value.text} + {index.constant * wide}"
+    if wide == 1:
+        return f"{value.text} + {index.within(SUM)}"
+    return f"{value.text} + {wide} * {index.within(UNARY)}"

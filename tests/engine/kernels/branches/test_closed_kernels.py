@@ -1,0 +1,79 @@
+"""The kernel of closed forms: what it fills, what it leaves out, and how it runs uncompiled."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.engine.kernels.branches import closed_arm, closed_kernels
+from poekin.solve.ik_all.closed_form import closed_form
+
+
+def arm(name: str, joints: int = 6) -> tuple[pk.Chain, np.ndarray]:
+    chain = pk.load(name).chain()
+    chain = pk.Chain.from_space(chain.screws[:joints], chain.home)
+    found = closed_form(chain)
+    assert found is not None
+    return chain, found.arm
+
+
+Q = np.array([0.4, -1.2, 1.5, -0.3, 0.8, 0.2])
+
+
+@pytest.mark.parametrize(("name", "joints"), [("ur5", 6), ("puma560", 6), ("puma560", 3)])
+def test_one_target_uncompiled_and_a_batch_compiled_have_the_same_rows(name, joints):
+    chain, table = arm(name, joints)
+    T = chain.fk(Q[:joints])
+    one = np.full((16, joints + 1), np.nan)
+    count = closed_kernels.fill(table, T, one)
+    many = np.empty((2, 16, joints + 1))
+    closed_kernels.branches.call(table, np.stack([T, T]), many)
+    np.testing.assert_array_equal(many[0], many[1])
+    np.testing.assert_allclose(many[0, :count], one[:count], atol=1e-9)
+    assert np.isnan(many[0, count:]).all()
+    assert count == (8 if joints == 6 else count)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("at", [(0, 0), (1, 2), (2, 3)])
+def test_a_target_that_is_not_finite_has_no_rows(bad, at):
+    chain, table = arm("ur5")
+    T = chain.fk(Q)
+    T[at] = bad
+    rows = np.empty((1, 16, 7))
+    closed_kernels.branches.call(table, T[None].copy(), rows)
+    assert np.isnan(rows).all()
+
+
+def test_a_joint_that_the_arm_does_not_have_is_at_zero_in_every_solution():
+    chain, table = arm("puma560", 3)
+    assert table[closed_arm.RULE, closed_arm.ADDED] == 3
+    assert sorted(table[:6, closed_arm.COLUMN]) == [-1, -1, -1, 0, 1, 2]
+    rows = np.empty((16, 4))
+    count = closed_kernels.fill(table, chain.fk(Q[:3]), rows)
+    assert (rows[:count, 3] > 0).any()
+    away = chain.fk(Q[:3])
+    away[:3, :3] = pk.so3.exp([0.3, 0.2, 0.1]) @ away[:3, :3]
+    count = closed_kernels.fill(table, away, rows)
+    assert not (rows[:count, 3] > 0).any()
+
+
+def test_where_an_added_joint_may_be_anywhere_the_rows_say_so():
+    # the fourth to sixth axis are the added wrist through a point of the arm's last axis: where it
+    # is on the first axis, the first angle is not told by the position
+    z, x = [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]
+    screws = [
+        pk.screw.revolute(z, [0, 0, 0]),
+        pk.screw.revolute(x, [0, 0, 0.5]),
+        pk.screw.revolute([0.0, 1.0, 0.0], [0, 0, 1.0]),
+        pk.screw.revolute(z, [0, 0, 0]),
+    ]
+    chain = pk.Chain.from_space(screws, np.eye(4))
+    found = closed_form(chain)
+    assert found is not None
+    straight = chain.fk(np.zeros(4))
+    rows, _ = found.rows(straight[None])
+    near = np.nanmin(np.abs(rows[0]).max(axis=1), initial=np.inf)
+    *_, unsure = found.starts(straight[None])
+    assert near < 1e-6 or unsure[0]

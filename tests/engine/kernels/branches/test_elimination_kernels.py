@@ -1,0 +1,54 @@
+"""The kernel of elimination: any beginning of the loop, either way round, gives the same solutions."""
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.engine.kernels.branches import elimination_kernels
+
+
+def chain(seed):
+    rng = np.random.default_rng(seed)
+    h = rng.normal(size=(6, 3))
+    h /= np.linalg.norm(h, axis=1, keepdims=True)
+    home = np.eye(4)
+    home[:3] = pk.se3.exp(rng.normal(size=6))[:3]
+    return pk.Chain(np.hstack([h, np.cross(rng.normal(size=(6, 3)), h)]), home, frame="space")
+
+
+def table(arm, reverse, begin):
+    form = arm.to_hp()
+    rows = np.zeros((9, 9))
+    rows[:6, :3] = form.H
+    rows[:7, 3:6] = form.P
+    rows[7] = form.R_nt.ravel()
+    rows[8, :3] = (2.0, reverse, begin)
+    return rows
+
+
+def solved(arm, T, reverse, begin):
+    rows = np.full((len(T), elimination_kernels.MOST, 7), np.nan)
+    counts = np.empty((len(T), 2))
+    elimination_kernels.eliminated.call(table(arm, reverse, begin), T, rows, counts)
+    return rows, counts
+
+
+@pytest.mark.parametrize("reverse", [0, 1])
+@pytest.mark.parametrize("begin", range(6))
+def test_every_loop_finds_the_configuration_of_the_pose(reverse, begin):
+    arm = chain(4)
+    q = np.random.default_rng(0).uniform(-np.pi, np.pi, (20, 6))
+    rows, counts = solved(arm, arm.fk(q), reverse, begin)
+    known = rows[:, :, 6] >= 0
+    off = np.abs((rows[:, :, :6] - q[:, None] + np.pi) % (2 * np.pi) - np.pi).max(axis=2)
+    off = np.where(known, off, np.inf).min(axis=1)
+    assert (off[counts[:, 1] == 0] < 1e-6).all()
+    assert (known.sum(axis=1) == counts[:, 0]).all()
+
+
+def test_a_loop_whose_first_axes_meet_is_said_to_degenerate():
+    arm = pk.load("jaco").chain()
+    T = arm.fk(np.array([[0.3, 1.0, -0.5, 0.7, 1.1, -2.0]]))
+    rows, counts = solved(arm, T, 0, 0)
+    assert counts[0, 0] == elimination_kernels.DEGENERATE
+    assert (rows[..., 6] == -1).all()

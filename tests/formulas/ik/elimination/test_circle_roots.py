@@ -1,0 +1,99 @@
+"""Real roots of trigonometric polynomials: all of them, against products of known factors."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from poekin.formulas.ik.elimination import circle_roots
+
+TABLE = circle_roots.TABLE
+K = np.arange(1, 9)
+
+
+def collected(f, noise):
+    found = [0.0] * (2 * circle_roots.ROOM)
+    count = circle_roots.collect(TABLE, list(f), noise, [0.0] * circle_roots.SCRATCH, found)
+    return np.array(found[: 2 * count]).reshape(-1, 2)
+
+
+def with_roots(roots, rest):
+    """Coefficients of the product of sin((x - r) / 2) over an even number of roots, and of 2 + cos
+    of the rest: by values at 64 angles and their mean, which is exact to rounding.
+    """
+    x = 2 * pi * np.arange(64) / 64
+    values = np.ones(64)
+    for r in roots:
+        values *= np.sin(0.5 * (x - r))
+    for r in rest:
+        values *= 2 + np.cos(x - r)
+    values /= np.abs(values).max()
+    a = 2 / 64 * np.cos(np.outer(K, x)) @ values
+    b = 2 / 64 * np.sin(np.outer(K, x)) @ values
+    f = np.empty(17)
+    f[0] = values.mean()
+    f[1::2] = a
+    f[2::2] = b
+    return f
+
+
+def apart(a, b):
+    return np.abs((a[:, None] - b[None] + pi) % (2 * pi) - pi)
+
+
+@given(st.integers(0, 8), st.integers(0, 2**32 - 1))
+def test_every_root_of_a_product_is_found_and_no_other(pairs, seed):
+    rng = np.random.default_rng(seed)
+    roots = rng.uniform(-pi, pi, 2 * pairs)
+    gaps = apart(roots, roots) + 9 * np.eye(2 * pairs)
+    if gaps.min(initial=9) < 0.03:  # nearer roots of 16 are lost in rounding
+        return
+    f = with_roots(roots, rng.uniform(-pi, pi, 8 - pairs))
+    found = collected(f, 1e-15)
+    slopes = np.abs(
+        [circle_roots.value_and_slope(f, np.cos(r), np.sin(r))[1] for r in roots] or [1.0]
+    )
+    if slopes.min() < 1e-11:
+        return
+    assert len(found) == 2 * pairs
+    if pairs:
+        # rounding of some 64 terms of at most 1, over the slope
+        assert (apart(roots, found[:, 0]).min(axis=1) <= 64 * 2e-16 / slopes + 1e-15).all()
+
+
+@pytest.mark.parametrize("at", [0.1234, 0.1234 + pi / 4, 1.0, -3.0])
+def test_a_double_root_is_found_once_and_is_flat(at):
+    # 1 - cos(x - at), at ends of arcs too, within rounding of its touching 0
+    f = np.zeros(17)
+    f[0] = 1
+    f[1] = -np.cos(at)
+    f[2] = -np.sin(at)
+    found = collected(f, 1e-15)
+    assert len(found) == 1
+    # f is below the noise within sqrt(2e-15) of the root
+    assert apart(found[:, 0], np.array([at])).max() <= 1e-6
+    assert found[0, 1] <= 1e-6
+
+
+def test_a_root_at_the_end_of_an_arc_is_found_once():
+    at = 0.1234
+    f = np.zeros(17)
+    f[1] = -np.sin(at)
+    f[2] = np.cos(at)
+    found = collected(f, 1e-15)
+    assert len(found) == 2
+    assert apart(found[:, 0], np.array([at, at + pi])).min(axis=1).max() <= 1e-12
+
+
+def test_values_at_the_samples_tell_the_coefficients_and_what_is_beyond_them():
+    rng = np.random.default_rng(0)
+    f = rng.normal(size=17)
+    x = 2 * pi * np.arange(circle_roots.SAMPLES) / circle_roots.SAMPLES
+    values = f[0] + f[1::2] @ np.cos(np.outer(K, x)) + f[2::2] @ np.sin(np.outer(K, x))
+    back = [0.0] * 17
+    # twenty sums of seventeen terms of size 1
+    assert circle_roots.fourier(TABLE, list(values), back) <= 20 * 17 * 2.3e-16
+    assert np.abs(back - f).max() <= 20 * 17 * 2.3e-16
+    assert circle_roots.fourier(TABLE, list(values + 0.1 * np.cos(9 * x)), back) >= 0.09

@@ -1,0 +1,86 @@
+"""Three joints in a plane between revolute ones, against the motion that matrix exponentials make."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.linalg import expm
+
+from poekin.formulas.ik import three_parallel
+from poekin.formulas.ik.slides import planar
+from poekin.formulas.ik.slides.position import across
+
+SEEDS = st.integers(0, 2**32 - 1)
+ORDERS = {
+    "".join("P" if slide else "R" for slide in order): order
+    for order in [(False, False, True), (False, True, False), (True, False, False),
+                  (False, True, True), (True, False, True), (True, True, False)]
+}  # fmt: skip
+
+
+def arm(seed, slides):
+    rng = np.random.default_rng(seed)
+    h = rng.normal(size=(6, 3))
+    n = h[1] / np.linalg.norm(h[1])
+    for i, slide in enumerate(slides, 1):
+        h[i] = np.cross(n, rng.normal(size=3)) if slide else rng.choice([-1.0, 1.0]) * n
+    h /= np.linalg.norm(h, axis=1, keepdims=True)
+    return h, n, rng.uniform(-1, 1, (6, 3)), rng.uniform(-2, 2, 6)
+
+
+def motion(slides, h, P, x):
+    """Rotation, and the sixth axis' place from the first."""
+    T = np.eye(4)
+    for i in range(6):
+        A = np.zeros((4, 4))
+        if 1 <= i <= 3 and slides[i - 1]:
+            A[:3, 3] = h[i]
+        else:
+            a, b, c = h[i]
+            A[:3, :3] = [[0, -c, b], [c, 0, -a], [-b, a, 0]]
+        T = T @ expm(x[i] * A)
+        if i < 5:
+            T[:3, 3] += T[:3, :3] @ P[i + 1]
+    return T[:3, :3], T[:3, 3]
+
+
+def rows_of(slides, h, n, P, R, p):
+    h = tuple(map(tuple, h.tolist()))
+    P = tuple(map(tuple, P.tolist()))
+    n = tuple(n.tolist())
+    R = tuple(R.ravel().tolist())
+    p = tuple(p.tolist())
+    rows = []
+    for root in three_parallel.outer((h[0], n, n, n, h[4], h[5]), P, R, p):
+        rows += planar.with_outer(slides, h, P, n, across(n), R, p, root)
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("slides", ORDERS.values(), ids=ORDERS)
+@given(SEEDS)
+def test_every_row_with_a_margin_makes_the_motion_and_one_is_that_it_was_made_of(slides, seed):
+    h, n, P, q = arm(seed, slides)
+    R, p = motion(slides, h, P, q)
+    rows = rows_of(slides, h, n, P, R, p)
+    rows = rows[rows[:, 12] > 1e-3]
+    away = []
+    for row in rows:
+        x = np.arctan2(row[1:12:2], row[0:12:2])
+        for i in range(3):
+            if slides[i]:
+                x[i + 1] = row[2 * i + 2]
+        found = motion(slides, h, P, x)
+        # some 100 roundings over the square of margins above 1e-3, whose square root is a slope
+        size = 10 + np.abs(x).max()
+        assert np.abs(found[0] - R).max() <= 1e-9
+        assert np.abs(found[1] - p).max() <= 1e-9 * size
+        off = x - q
+        turns = [i for i in range(6) if not (1 <= i <= 3 and slides[i - 1])]
+        off[turns] = np.remainder(off[turns] + np.pi, 2 * np.pi) - np.pi
+        away.append(np.abs(off).max())
+    # where q itself is nearly a double root its margin is below
+    every = rows_of(slides, h, n, P, R, p)
+    if (np.abs(every[:, 12]) > 1e-2).all():
+        assert min(away) <= 1e-7

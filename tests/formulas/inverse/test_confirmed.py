@@ -1,0 +1,67 @@
+"""Solutions that branches lead to: the arm's, each once, by an oracle of its own numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.formulas.inverse import confirmed
+
+ARM = pk.load("puma560").chain()
+SIZES = np.append(np.full(6, 2 * np.pi), ARM.reach)
+
+
+def forward(x, T, J):
+    T[:], J[:] = ARM.fk_jacobian(x, "hybrid")
+
+
+def selected(T, branches):
+    q = np.empty((len(branches), 6))
+    work = np.empty((14, 6))
+    with np.errstate(all="ignore"):
+        n = confirmed.select(forward, T, branches, len(branches), SIZES, np.empty((4, 4)), work, q)
+    return q[:n]
+
+
+def branch(q, margin=0.5):
+    return [*q, margin]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_start_nearby_is_led_to_the_solution(seed):
+    rng = np.random.default_rng(seed)
+    q = rng.uniform(-np.pi, np.pi, 6)
+    q[[2, 4]] = (0.8, 1.1)  # the elbow and the wrist are bent
+    found = selected(ARM.fk(q), np.array([branch(q + rng.normal(0, 1e-3, 6))]))
+    assert len(found) == 1
+    least = np.linalg.svd(ARM.jacobian(q, "hybrid"), compute_uv=False)[-1]
+    assert np.abs(found[0] - q).max() <= 4e-14 * ARM.reach / least
+
+
+def test_a_solution_is_listed_once_whatever_turns_it_has():
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    turned = q + np.array([2 * np.pi, 0, 0, -2 * np.pi, 0, 0])
+    assert len(selected(ARM.fk(q), np.array([branch(q), branch(turned), branch(q)]))) == 1
+
+
+def test_a_branch_far_outside_or_of_no_number_is_passed_over():
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    assert len(selected(T, np.array([branch(q, -0.5), branch(q, np.nan)]))) == 0
+    assert len(selected(T, np.array([branch(q, -1e-3)]))) == 1
+
+
+def test_a_half_turn_away_is_no_solution():
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    e = confirmed.pose_error(T @ np.diag([-1.0, -1.0, 1.0, 1.0]), T)
+    assert confirmed.size(e, 1.0) > 1.0
+
+
+@pytest.mark.parametrize("spoil", [1.01, -1.0, np.nan, 0.0])
+def test_of_what_is_no_pose_there_is_no_solution(spoil):
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    T[:3, :3] *= spoil
+    assert len(selected(T, np.array([branch(q)]))) == 0

@@ -1,0 +1,86 @@
+"""Axes that meet and axes that are parallel."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.model.geometry.decomposition import joints as module
+from poekin.model.geometry.decomposition.joints import LoopJoint, Tolerance
+from tests.solve.ik_all import closed_form_arms as arms
+
+SEEDS = st.integers(0, 2**32 - 1)
+TIGHT = Tolerance(1e-13, 1e-13)
+
+
+def through(place, *directions):
+    return [LoopJoint(np.asarray(h, float), place + k * np.asarray(h), False) for k, h in
+            enumerate(directions)]  # fmt: skip
+
+
+@given(SEEDS, st.integers(2, 4))
+def test_axes_through_a_point_meet_in_it(seed, count):
+    rng = np.random.default_rng(seed)
+    place = rng.uniform(-1, 1, 3)
+    axes = through(place, *[arms.unit(rng) for _ in range(count)])
+    least = min(module.sine(a, b) for a, b in pairwise(axes))
+    point = module.meeting_point(axes, TIGHT)
+    if least < module.SLANT:
+        assert point is None
+    elif least > 0.1:
+        assert point is not None
+        np.testing.assert_allclose(point, place, atol=1e-13)
+
+
+@pytest.mark.parametrize("off", [1e-9, 1e-3])
+def test_axes_that_pass_each_other_do_not_meet_within_less(off):
+    axes = through(np.zeros(3), [0, 0, 1], [1, 0, 0])
+    axes[1] = axes[1]._replace(point=np.array([0.0, off, 0.0]))
+    assert module.meeting_point(axes, TIGHT) is None
+    assert module.meeting_point(axes, Tolerance(1e-13, off)) is not None
+
+
+def test_a_slide_neither_meets_nor_is_parallel():
+    axes = through(np.zeros(3), [0, 0, 1], [1, 0, 0])
+    slide = [axes[0], axes[1]._replace(slides=True)]
+    assert module.meeting_point(slide, TIGHT) is None
+    assert not module.parallel(slide, TIGHT)
+
+
+@pytest.mark.parametrize(
+    ("direction", "place", "expected"),
+    [
+        ([0, 0, 1], [1.0, 0, 0], True),
+        ([0, 0, -1], [1.0, 0, 0], True),
+        ([0, 0, 1], [0.0, 0, 5], False),
+        ([0, 1e-9, 1], [1.0, 0, 0], False),
+    ],
+    ids=["parallel", "the other way", "coaxial", "tilted"],
+)
+def test_parallel_axes_are_told_from_coaxial_and_tilted_ones(direction, place, expected):
+    first = LoopJoint(np.array([0.0, 0.0, 1.0]), np.zeros(3), False)
+    other = LoopJoint(np.asarray(direction, float), np.asarray(place), False)
+    assert module.parallel([first, other], TIGHT) is expected
+
+
+def test_joints_are_lines_at_the_zero_of_the_coordinates():
+    chain = pk.load("stanford").chain()
+    joints = module.joints_of(chain)
+    assert [joint.slides for joint in joints] == [False, False, True, False, False, False]
+    assert [joint.column for joint in joints] == list(range(6))
+    shifted = pk.Chain.from_space(chain.screws, chain.home, offset=[0.3, 0, 0, 0, 0, 0])
+    turned = pk.so3.exp([0, 0, 0.3]) @ joints[1].direction
+    np.testing.assert_allclose(module.joints_of(shifted)[1].direction, turned, atol=1e-15)
+
+
+@given(SEEDS)
+def test_a_vector_across_is_of_unit_length(seed):
+    h = arms.unit(np.random.default_rng(seed), seed % 2 == 0)
+    u = module.across(h)
+    assert abs(u @ h) < 1e-15
+    assert np.linalg.norm(u) == pytest.approx(1, abs=1e-15)
