@@ -34,6 +34,7 @@ from .solve import calibration, motion
 from .solve.calibration import calibrate, choose_poses
 from .solve.ik.ik import ik
 from .solve.ik_all.ik_all import ik_all
+from .solve.ik_structure.ik_structure import ik_structure
 from .solve.path.follow import follow
 from .version import __version__ as __version__
 from .view.view import view
@@ -61,6 +62,7 @@ __all__ = [
     "from_text",
     "ik",
     "ik_all",
+    "ik_structure",
     "load",
     "manipulability",
     "manipulability_gradient",

@@ -84,8 +84,8 @@ def errors(chain: Chain, result: AllSolutions, T: np.ndarray) -> tuple[float, fl
     """The largest distance (m) and angle (rad) between solutions' poses, by `fk`, and their
     targets.
     """
-    Q = np.concatenate(result.solutions)
-    ours, wanted = chain.fk(Q), np.repeat(T, result.count, axis=0)
+    Q = result.q
+    ours, wanted = chain.fk(Q), np.repeat(T, result.counts, axis=0)
     turn = pk.so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ wanted[:, :3, :3])
     return (
         float(np.linalg.norm((ours - wanted)[:, :3, 3], axis=1).max()),
@@ -106,7 +106,7 @@ def judged(name: str, count: int) -> Judged:
         times[method] = (time.process_time() - start) / count
     worst = [errors(chain, result, T) for result in results.values()]
     same = sum(equal(a, b) for a, b in zip(results["search"].solutions, theirs, strict=True))
-    numbers = {method: int(result.count.sum()) for method, result in results.items()}
+    numbers = {method: int(result.counts.sum()) for method, result in results.items()}
     position, rotation = (max(pair) for pair in zip(*worst, strict=True))
     return Judged(
         name,

@@ -48,7 +48,7 @@ def test_all_solutions_are_those_of_the_arm_itself(chain):
     x = ARM.random(1, 10)
     every = pk.ik_all(chain, ARM.fk(x), method="search")
     alone = pk.ik_all(ARM, ARM.fk(x), method="search")
-    assert every.count.tolist() == alone.count.tolist()
+    assert every.counts.tolist() == alone.counts.tolist()
     for readings, joints in zip(every.solutions, alone.solutions, strict=True):
         found = readings @ chain.coupling.T
         apart = np.abs(found[:, None] - joints).max(axis=-1).min(axis=1)
@@ -169,7 +169,7 @@ def test_the_sentence_counts_no_solution_beyond_a_joint_s_own_limits():
     chain = narrow(ARM.coupled("J3 = J2 + J3"), -2.0, 1.0)
     for T in chain.fk(chain.random(3, 5)):
         found = pk.ik_all(chain, T, method="search")
-        assert f"{len(found.solutions)} of them within the limits" in found.complete
+        assert f"{len(found.solutions)} of them within the limits" in found.explanation
 
 
 def test_a_path_ends_at_a_joint_s_own_limits_where_those_of_readings_are_narrower():

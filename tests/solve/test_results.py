@@ -7,7 +7,10 @@ from __future__ import annotations
 import pytest
 
 from poekin.solve.ik import joint_domain, solution, task
-from poekin.solve.ik_all import all_solutions, ik_all_search
+from poekin.solve.ik_all import all_solutions, ik_all_search, structure
+from poekin.solve.ik_all.nearest import constrained_arm, nearest_arm
+from poekin.solve.ik_all.solution_sets import evidence, found
+from poekin.solve.ik_structure import result
 from poekin.solve.motion import timing
 from poekin.solve.path import path_interval, path_result
 from tests import findings
@@ -17,6 +20,12 @@ OWN = (
     path_interval,
     path_result,
     ik_all_search,
+    structure,
+    constrained_arm,
+    nearest_arm,
+    result,
+    evidence,
+    found,
     solution,
     joint_domain,
     task,

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike
 
 from ...model.kinematics.arm import Arm, compiled
 from ...results import Progress
+from ..lock import items
 from .choice.redundancy import Objective, check_objective
-from .ik_problem import Settings, hashable, items, make_problem
+from .ik_problem import Settings, hashable, make_problem
 from .solution import Solution
 from .solver import solve
 from .task import TaskName, targets

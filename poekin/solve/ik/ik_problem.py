@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -12,7 +11,7 @@ import numpy as np
 from ...checks import KERNEL_INT, positive, true_or_false, whole
 from ...engine.jit import threads
 from ...engine.kernels import ik_codes as codes
-from ...errors import InputError, safe_repr
+from ...errors import InputError
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
@@ -62,13 +61,6 @@ def hashable(values: Any, what: str) -> Any:
         values = numbers(values, what)
         return tuple(values.tolist()) if values.ndim == 1 else values
     return values
-
-
-def items(lock: Any) -> Any:
-    """Names and values of a user's dict, to be part of a key. Raises: InputError."""
-    if lock is not None and not isinstance(lock, Mapping):
-        raise InputError(f"lock: expected a dict of names and values, got {safe_repr(lock)}")
-    return None if lock is None else tuple(lock.items())
 
 
 class IKProblem:
@@ -160,6 +152,33 @@ class IKProblem:
         """Problem that differs in its task. Raises: InputError where the arm has no plane for it."""
         settings = self.settings._replace(task=name, axis=None)
         return make_problem(self.given.compile(), settings)
+
+    def solve_one(self, target: Array, start: Array) -> tuple[Array, Array] | None:
+        """q (m,) and info of one target (4, 4) that the first try reaches from a start (m,); None
+        where it does not, or `solve` is needed.
+        """
+        if self._one is None:
+            return None
+        q = np.empty(self.fast.dof)
+        info = np.empty(codes.INFO)
+        kernel, before, after = self._one
+        if kernel.call(*before, target, start, *after, q, info):
+            return q, info
+        return None
+
+    @cached_property
+    def _one(self) -> Any:
+        """Kernel of `solve_one` and its arguments before and after target and start; None where q
+        has other units than the kernel's, or joints have limits of their own.
+        """
+        if self.has_joint_limits or self.units.scale is not None:
+            return None
+        from ...engine.kernels import ik_kernels  # imports Numba
+
+        domain = self.domain
+        limits = np.ascontiguousarray(domain.limits)
+        after = (limits, self.locked, self.options, self._tolerances, domain.unbounded_periods)
+        return ik_kernels.solve_one, (self._address, self.given.kernel_table), after
 
     def solve(
         self,

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...checks import is_real
-from ...errors import InputError, ShapeError, UnknownName, join_names, quote, safe_repr, suggest
+from ...errors import InputError, ShapeError, join_names, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
@@ -17,6 +16,7 @@ from ...model.provenance import warn
 from ...model.readings.coupled import joint_values
 from ...model.sampling import half_range, sampling_range
 from ..joint_units import JointUnits, bounds, periods
+from ..lock import locked_values
 
 BESIDE_MIDDLE = 0.02
 """Share of its range by which a coordinate starts beside the middle, to either side in turn: where
@@ -44,10 +44,13 @@ class JointDomain:
         return ~np.isnan(self.locked_values)
 
     @cached_property
+    def _has_locked(self) -> bool:
+        return bool(self.locked.any())
+
+    @cached_property
     def has_unbounded_angle(self) -> bool:
         """Whether any coordinate with a period has no limits."""
-        unlimited = np.isinf(self.limits).all(axis=1)
-        return bool(self.periods[unlimited].any())
+        return bool(self.unbounded_periods.any())
 
     def anywhere(self, count: int) -> Array:
         """Starts of tries (count, m): NaN, for anywhere, but for what is locked."""
@@ -57,13 +60,19 @@ class JointDomain:
         """Starts of tries (count, m) near the middle of the ranges: from there near solutions are
         found first, and more often than from anywhere.
         """
+        return np.tile(self.beside_middle, (count, 1))
+
+    @cached_property
+    def beside_middle(self) -> Array:
+        """Start (m,) of `middle`."""
         low, high = self.ranges.T
         side = np.where(np.arange(len(low)) % 2, -1.0, 1.0)
-        start = 0.5 * (low + high) + BESIDE_MIDDLE * side * (high - low)
-        return np.tile(self.held(start), (count, 1))
+        return self.held(0.5 * (low + high) + BESIDE_MIDDLE * side * (high - low))
 
     def held(self, q: Array) -> Array:
         """Configurations (..., m) with what is locked at its value."""
+        if not self._has_locked:
+            return q
         return np.where(self.locked, self.locked_values, q)
 
     def contains(self, q: Array) -> np.ndarray:
@@ -71,19 +80,25 @@ class JointDomain:
         within = np.clip(q, *self.limits.T)
         return np.asarray((q == within).all(axis=-1))
 
-    def wrapped(self, q: Array, near: Array | None = None) -> Array:
-        """Configurations with whole periods taken off: nearest to `near` within the limits;
-        without `near`, a coordinate without limits within half a period of 0.
-        """
+    @cached_property
+    def unbounded_periods(self) -> Array:
+        """Periods (m,) of what is neither limited nor locked, 0 for the others."""
+        free = ~self.locked & np.isinf(self.limits).all(axis=1)
+        return np.where(free, self.periods, 0.0)
+
+    def principal(self, q: Array) -> Array:
+        """Configurations with each coordinate without limits within half a period of 0."""
+        period = self.unbounded_periods
+        return q - period * np.rint(q / np.where(period > 0, period, 1.0))
+
+    def wrapped(self, q: Array, near: Array) -> Array:
+        """Configurations moved by whole periods to the nearest to `near` within the limits."""
         lower, upper = self.limits.T
         free = (self.periods > 0) & ~self.locked
-        if near is None:
-            free = free & np.isinf(lower) & np.isinf(upper)
         period = np.where(free, self.periods, 1.0)
-        center = 0.0 if near is None else near
         least = np.ceil((lower - q) / period)
         most = np.floor((upper - q) / period)
-        times = np.clip(np.round((center - q) / period), least, most)
+        times = np.clip(np.round((near - q) / period), least, most)
         moved = q + np.where(free, period * times, 0.0)
         return np.where((moved >= lower) & (moved <= upper), moved, q)
 
@@ -94,24 +109,24 @@ def make_joint_domain(units: JointUnits, lock: Any, limits: bool) -> JointDomain
     """
     chain = units.fast.chain
     within = bounds(chain, limits)
-    locked_values = _locked_values(units, lock, within)
+    locked = locked_values(units, lock, within)
     if limits and np.isfinite(chain.joint_limits).any():
-        within = _left_by_joints(chain, within, locked_values)
+        within = _left_by_joints(chain, within, locked)
         chain = chain.replace(limits=within)
     ranges = free_ranges(chain)
     limited = np.isfinite(within).any(axis=1)
     ranges[limited] = np.stack(sampling_range(chain), axis=1)[limited]
-    return JointDomain(within, ranges, locked_values, periods(chain))
+    return JointDomain(within, ranges, locked, periods(chain))
 
 
-def _left_by_joints(chain: Chain, limits: Array, locked_values: Array) -> Array:
+def _left_by_joints(chain: Chain, limits: Array, locked: Array) -> Array:
     """Limits (m, 2) within which the joints' own keep each coordinate that is the only free one of
     some joint.
     """
     within = limits.copy()
-    free = np.isnan(locked_values)
+    free = np.isnan(locked)
     ratios = chain.coupling * free
-    at_rest = joint_values(chain, np.where(free, 0.0, locked_values))
+    at_rest = joint_values(chain, np.where(free, 0.0, locked))
     for k in np.flatnonzero(free):
         alone = (ratios[:, k] != 0) & (np.count_nonzero(ratios, axis=1) == 1)
         ends = (chain.joint_limits - at_rest[:, None])[alone] / ratios[alone, k, None]
@@ -149,10 +164,12 @@ def first_tries(
     given = units.of(for_targets(chain, batch, count, q0, "q0"))
     low, high = domain.limits.T
     first = np.minimum(np.maximum(given, low), high)  # np.clip takes thrice as long
-    moved = ((first != given) & ~domain.locked).any(axis=0)
-    if moved.any():
+    differs = first != given
+    if differs.any():
+        moved = differs.any(axis=0) & ~domain.locked
         names = join_names(np.array(units.fast.q_names)[moved])
-        warn(f"q0 is outside the limits of {names} and is moved to them")
+        if names:
+            warn(f"q0 is outside the limits of {names} and is moved to them")
     return domain.held(first)
 
 
@@ -171,31 +188,11 @@ def for_targets(
     if not np.isfinite(given).all():
         raise InputError(f"{what}: expected finite numbers, got {safe_repr(q)}")
     expected = (*batch, chain.dof)
+    if given.shape == expected:  # to broadcast takes longer than a solution
+        return given.reshape(count, chain.dof).copy()
     try:
         return np.broadcast_to(given, expected).reshape(count, chain.dof).copy()
     except ValueError as error:
         raise ShapeError(
             f"{what}: shape {given.shape} does not fit the targets' {expected}"
         ) from error
-
-
-def _locked_values(units: JointUnits, lock: Any, limits: Array) -> Array:
-    """Values (m,) of what is locked, in joint units, NaN for the others; lock are pairs of name and
-    value.
-    """
-    names = units.fast.q_names
-    scales = units.of(np.ones(len(names)))
-    values = np.full(len(names), np.nan)
-    for name, value in lock or ():
-        if name not in names:
-            raise UnknownName(f"lock: no coordinate {quote(name)}; {suggest(str(name), names)}")
-        k = names.index(name)
-        scale = float(scales[k])
-        real = is_real(value) and np.isfinite(value)
-        if not real or not limits[k, 0] <= scale * value <= limits[k, 1]:
-            within = sorted((limits[k] / scale).tolist())
-            raise InputError(
-                f"lock: {quote(name)}: expected a number within {within}, got {safe_repr(value)}"
-            )
-        values[k] = scale * float(value)
-    return values

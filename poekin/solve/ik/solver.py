@@ -8,6 +8,7 @@ import numpy as np
 
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
+from ...model.coordinates import coordinates
 from ...results import Progress
 from .choice.nearest import nearest
 from .choice.redundancy import Objective, optimise
@@ -31,6 +32,10 @@ def solve(
 ) -> Solution:
     """Solutions of targets (..., 4, 4); `nearest_to`, a configuration (m,) or (..., m)."""
     batch = T.shape[:-2]
+    if not batch and nearest_to is None and objective is None and progress is None:
+        found = _one(problem, T, q0)
+        if found is not None:
+            return found
     rows = np.ascontiguousarray(T.reshape(-1, 4, 4))
     if not (rows.flags.writeable and rows.flags.aligned):  # the kernels take no others
         rows = rows.copy()
@@ -48,7 +53,7 @@ def solve(
     else:
         u, info = _in_parts(problem, rows, first, near, objective, progress)
     if problem.domain.has_unbounded_angle and near is None:
-        u = problem.domain.wrapped(u)
+        u = problem.domain.principal(u)
     q = problem.coordinates(u)
     errors, success = problem.pose_errors(rows, q)
     causes = Causes(np.full(count, SOLVED, dtype=KIND), np.zeros(count))
@@ -69,6 +74,34 @@ def solve(
         distance_beyond_reach=causes.distance_beyond_reach.reshape(batch),
         limits_hit=causes.limits_hit,
         reachable_tasks=causes.reachable_tasks,
+        chain=problem.given,
+        target=T,
+    )
+
+
+def _one(problem: IKProblem, T: Array, q0: Any) -> Solution | None:
+    """Solution of one target that the first try reaches, without all that many targets need."""
+    start = problem.domain.beside_middle
+    if q0 is not None:
+        start = coordinates(q0, problem.given.q_names, "q0")
+        if start.shape != problem.domain.locked_values.shape:
+            return None
+        start = problem.domain.held(start)
+    found = problem.solve_one(T, start)
+    if found is None:
+        return None
+    q, info = found
+    return Solution(
+        q=q,
+        success=np.array(True),
+        reason=np.array(SOLVED, KIND),
+        position_error=info[codes.AT_POSITION : codes.AT_POSITION + 1].reshape(()),
+        rotation_error=info[codes.AT_ROTATION : codes.AT_ROTATION + 1].reshape(()),
+        iterations=np.array(int(info[codes.AT_ITERATIONS])),
+        restarts=np.array(0),
+        distance_beyond_reach=np.array(0.0),
+        limits_hit=(),
+        reachable_tasks=(),
         chain=problem.given,
         target=T,
     )

@@ -2,68 +2,113 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
 
-from ...errors import join_names
+from ...checks import choice
+from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...results import Result
 from ..ik.solution import place
-from .ik_all_search import Found
+from ..ragged import LazySequence, Ragged
+from .solution_sets.evidence import Evidence
+from .swivel import curves
 
-MethodUsed = Literal["closed form", "search"]
+MethodUsed = Literal["closed form", "elimination", "search"]
+PerSolution = Literal["solutions", "n_revolutions"]
 
 
 @dataclass(frozen=True, eq=False)
 class AllSolutions(Result):
-    """Every solution of each target, by `ik_all`.
+    """Every solution of each target, by `ik_all`; the solutions of all targets are one array.
 
     Attributes
     ----------
-    solutions : (s, m) ndarray, or list of them
-        Coordinates, rad or m, sorted; of a batch a list, its targets in C order.
-    n_revolutions : (s,) ndarray of int, or list of them
+    q : (S, m) ndarray
+        Coordinates of all solutions, rad or m: those of the first target of the batch, in C order,
+        then those of the next; sorted within each target.
+    revolutions : (S,) ndarray of int
         Number of places within the limits that each solution stands for, whole turns of some joints
         apart. A coordinate without limits counts once; 2^63 - 1 stands for more, too.
-    complete : str, or list of them
-        Statement of how sure it is that these are all.
-    method : {"closed form", "search"}
+    counts : (...) ndarray of int
+        Number of solutions of each target.
+    method : {"closed form", "elimination", "search"}
         Method that found them.
-    count : (...) ndarray of int
-        Number of solutions.
     anywhere : (...) ndarray of int
         Number of solutions without limits.
     continuum : (...) ndarray of bool
-        Whether there are infinitely many: one of them is listed, and those that stand alone.
+        Whether there are infinitely many: one of them is listed, and those that stand alone; of a
+        redundant arm those at some values of the coordinate `redundant`.
+    complete : bool, or (...) ndarray of bool
+        Whether these are all the solutions, by a closed form of the arm itself; False for a search,
+        a continuum, and a target that is not finite. `explanation` says why.
     p_missing : (...) ndarray
-        Probability of a solution missing: 0 for the closed form, NaN where nothing was found or
-        there is a continuum.
+        Probability of a solution missing: 0 for a closed form of the arm itself, NaN where nothing
+        was found by search, where there is a continuum, and for the closed form of a near arm.
     position_error, rotation_error : (...) ndarray
         Largest errors of the listed solutions by `Chain.fk`, m and rad; NaN without any.
+    self_motion_coordinates : dict of int to tuple of str
+        Names of the coordinates that move along a continuum, by number of the target in C order.
+    redundant : str or None
+        Name of the coordinate that was given values, of an arm with seven coordinates.
+    sample : (S,) ndarray of int, or None
+        Number of the value of `redundant` that each solution has.
+    evidence : Evidence or None
+        What `explanation` is made of; None of a result that was put together by hand.
     chain : Chain or None
         The arm; None of a result that was put together by hand.
     target : (..., 4, 4) ndarray or None
         Target poses of the tip in the base frame, m.
     """
 
-    left_out = ("chain", "target")
+    derived: ClassVar = ("solutions", "n_revolutions", "explanation")
+    left_out = ("q", "revolutions", "evidence", "chain", "target")
 
-    solutions: Any
-    n_revolutions: Any
-    complete: Any
+    q: Array
+    revolutions: np.ndarray
+    counts: np.ndarray
     method: MethodUsed
-    count: np.ndarray
     anywhere: np.ndarray
     continuum: np.ndarray
+    complete: Any
     p_missing: Array
     position_error: Array
     rotation_error: Array
+    self_motion_coordinates: dict[int, tuple[str, ...]]
+    redundant: str | None = None
+    sample: np.ndarray | None = None
+    evidence: Evidence | None = None
     chain: Chain | None = None
     target: Array | None = None
+
+    @property
+    def solutions(self) -> Any:
+        """Coordinates (s, m), rad or m; of a batch a sequence of them, its targets in C order."""
+        return self._parts(self.q)
+
+    @property
+    def n_revolutions(self) -> Any:
+        """Numbers of places (s,) of the solutions; of a batch a sequence of them."""
+        return self._parts(self.revolutions)
+
+    @property
+    def explanation(self) -> Any:
+        """Sentence on how many solutions there are and how they were found; of a batch a sequence.
+
+        Says how sure it is that they are all; of a batch each is made when it is asked for.
+        """
+        if self.counts.ndim == 0:
+            return self._sentence(0)
+        return LazySequence(self.counts.size, self._sentence)
+
+    @property
+    def target_number(self) -> np.ndarray:
+        """Number of the target (S,), in C order, of each row of `q`."""
+        return np.repeat(np.arange(self.counts.size), self.counts.ravel())
 
     def of(self, *index: int) -> Array:
         """Solutions of one target of a batch.
@@ -89,71 +134,108 @@ class AllSolutions(Result):
         -----
         Source: those of `ik_all`.
         """
-        flat = place(index, self.count.shape, "of")
-        if not index:
-            return self.solutions
-        return self.solutions[flat]
+        flat = place(index, self.counts.shape, "of")
+        return Ragged(self.q, self.counts.ravel())[flat]
+
+    def padded(self, what: PerSolution = "solutions") -> np.ndarray:
+        """Solutions of all targets in one array, filled up to as many for each.
+
+        Parameters
+        ----------
+        what : {"solutions", "n_revolutions"}, default "solutions"
+            Coordinates, or the numbers of places.
+
+        Returns
+        -------
+        array : (..., most, m) ndarray, or (..., most) of int
+            Coordinates, rad or m, then rows of NaN; numbers of places, then 0. `most` is the
+            largest of `counts`.
+
+        Raises
+        ------
+        InputError
+            If `what` is none of these.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import poekin as pk
+        >>> arm = pk.load("ur5").chain()
+        >>> T = arm.fk([[0.4, -1.2, 1.5, -0.3, 0.8, 0.0], [0.0, -1.2, 1.5, -0.3, 0.1, 0.2]])
+        >>> every = pk.ik_all(arm, T, method="search")
+        >>> every.counts.tolist(), every.padded().shape
+        ([8, 8], (2, 8, 6))
+        """
+        choice(what, get_args(PerSolution), "what")
+        rows = self.q if what == "solutions" else self.revolutions
+        fill = np.nan if what == "solutions" else 0
+        whole = Ragged(rows, self.counts.ravel()).padded(fill)
+        return whole.reshape(*self.counts.shape, *whole.shape[1:])
+
+    def families(self, *index: int) -> list[Array]:
+        """Curves of self-motion of a redundant arm: the solutions of one target in order.
+
+        Each solution is linked to that at the next value of `redundant` which continues it. A curve
+        ends where a limit cuts it, where `redundant` turns back along it, and at a singularity; one
+        that goes on over a whole turn of `redundant` begins and ends at the least and the largest
+        value.
+
+        Parameters
+        ----------
+        *index : int
+            Index of the target in the batch.
+
+        Returns
+        -------
+        families : list of (l, m) ndarray
+            Configurations along each curve, rad or m, the longest curves first.
+
+        Raises
+        ------
+        InputError
+            If the result is not of a redundant arm with `n_swivel`.
+        ShapeError
+            If the index has not as many numbers as the batch has axes.
+        IndexError
+            If there is no such target.
+
+        Notes
+        -----
+        Source: the tangent of the curve is the null vector of the Jacobian (Burdick 1989).
+        """
+        if self.redundant is None or self.sample is None or self.chain is None:
+            raise InputError(
+                "families: expected a result of ik_all with n_swivel, of a redundant arm"
+            )
+        flat = place(index, self.counts.shape, "families")
+        counts = self.counts.ravel()
+        q = Ragged(self.q, counts)[flat]
+        return curves(self.chain, q, Ragged(self.sample, counts)[flat], self.redundant)
 
     def summary(self) -> str:
-        """`complete` of one target, or the number of all solutions of a batch.
+        """`explanation` of one target, or the number of all solutions of a batch.
 
         Returns
         -------
         text : str
             One sentence.
         """
-        if self.count.ndim == 0:
-            return self.complete
-        return f"{int(self.count.sum())} solutions of {self.count.size} targets, by {self.method}"
+        if self.counts.ndim == 0:
+            return self.explanation
+        return f"{len(self.q)} solutions of {self.counts.size} targets, by {self.method}"
+
+    def _parts(self, rows: np.ndarray) -> np.ndarray | Sequence[np.ndarray]:
+        return rows if self.counts.ndim == 0 else Ragged(rows, self.counts.ravel())
+
+    def _sentence(self, k: int) -> str:
+        if self.evidence is not None:
+            return self.evidence.sentence(k)
+        s = int(self.counts.flat[k])
+        return f"{s} solution{'s' * (s != 1)}"
 
     def __repr__(self) -> str:
-        if self.count.ndim == 0:
-            return f"<AllSolutions by {self.method}: {self.complete}>"
-        return f"<AllSolutions of {self.count.size} targets by {self.method}: {int(self.count.sum())} in all>"
-
-
-def missing_probability(found: Found) -> float:
-    """The chance that a solution is missing which a try finds half as often as the rarest of those
-    that were found.
-
-    Of a solution that is the end of a share p of the tries that end at any, nothing is seen in N of
-    them with the chance (1 - p)^N; p is set to half the smallest share seen. The closed form misses
-    none.
-    """
-    nothing = found.restarts and not len(found.solutions)
-    if found.self_motion_coordinates or found.full or nothing:
-        return math.nan
-    if not found.restarts:
-        return 0.0
-    share = 0.5 * found.hits.min() / found.ends
-    return float((1.0 - share) ** found.ends)
-
-
-def in_words(found: Found, inside: int, closed: str | None) -> str:
-    """A sentence on the solutions of a target: their number, that inside the limits, the way they
-    were found, and the chance of more.
-
-    `closed` says which closed form found them, None is for the search.
-    """
-    s = len(found.solutions)
-    if found.self_motion_coordinates:
-        alone = ""
-        if s > 1:
-            alone = f" and {s - 1} that stand{'s' * (s == 2)} alone"
-        names = join_names(found.self_motion_coordinates)
-        said = f"infinitely many solutions, along which {names} move; one of them{alone}"
-    else:
-        said = f"{'at least ' * found.full}{s} solution{'s' * (s != 1)}"
-    if inside != s:
-        said += f", {inside} of them within the limits"
-    if not found.restarts:
-        return f"{said}: {closed}"
-    said += f": search, {found.restarts} tries"
-    if not s or found.self_motion_coordinates or found.full:
-        return said
-    said += (
-        f", each found {int(found.hits.min())} times or more; one that is half as easy to find as the rarest is "
-        f"missing with a chance of {missing_probability(found):.1g}"
-    )
-    odd = s % 2 == 1 and found.solutions.shape[1] == 6
-    return said + "; the number is odd: one of them is a double one, or one is missing" * odd
+        if self.counts.ndim == 0:
+            return f"<AllSolutions by {self.method}: {self.explanation}>"
+        return (
+            f"<AllSolutions of {self.counts.size} targets by {self.method}: {len(self.q)} in all>"
+        )

@@ -1,16 +1,19 @@
-"""Joints in closed form by EAIK, where the axes of an arm allow it."""
+"""Joints in closed form, where the axes of an arm allow it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import ClassVar, Literal
 
 import numpy as np
 
-from ...errors import MissingExtra
+from ...engine.kernels.branches import closed_arm
+from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ...model.geometry.hp import HPForm
+from ...model.geometry.decomposition.completions import completions
+from ...model.geometry.decomposition.joints import Tolerance, joints_of
+from ...model.geometry.decomposition.sharp_arm import ROUNDING, branch_rows, sharp_arm
 from ...model.geometry.idealise import Idealised
 
 EXACT = 1e-5
@@ -18,123 +21,104 @@ EXACT = 1e-5
 start from there.
 """
 
-
-# sines of angles
-_SLANT = 0.01
-_PARALLEL = 1e-14
-_TILT = 1e-4
-# poses, and rad: roots of a polynomial may be as bad, and are starts only
-_ASKED = 8
-_FOUND = 1e-3
+# a margin so far below 0 is no double root of any arm within EXACT, where there are other solutions
+_HOPELESS = 0.01
 
 
 @dataclass(frozen=True, eq=False)
 class ClosedForm:
-    """EAIK's solver of one arm: starts that are solutions to rounding, or of an arm that is nearly
-    the given one.
+    """Closed form of one arm of m <= 6 joints, or of one that is nearly it.
 
-    Attributes: form, the arm's axes; solver, EAIK's; position_bound, rotation_bound, how far (m,
-    rad) the arm that is solved is from the given one: 0 where it is the same.
-    Source: Ostermeier, Külz and Althoff 2025, Automatic Geometric Decomposition for Analytical
-    Inverse Kinematics.
+    Attributes: arm, the array of `closed_arm`; dof, m; family, the three axes by which it is solved,
+    in words; position_bound, rotation_bound, how far (m, rad) the arm that is solved is from the
+    given one: 0 where it is the same.
+    Source: Elias and Wen 2025, IK-Geo: unified robot inverse kinematics using subproblem
+    decomposition; Murray, Li and Sastry 1994, Section 3.3.
     """
 
-    form: HPForm
-    solver: Any
+    method: ClassVar[Literal["closed form"]] = "closed form"
+
+    arm: Array
+    dof: int
+    family: str
     position_bound: float
     rotation_bound: float
-
-    @property
-    def family(self) -> str:
-        """Name that EAIK has for the arm's kind."""
-        return self.solver.getKinematicFamily()
 
     def said(self) -> str:
         """The way to the solutions, in words."""
         if not self.position_bound and not self.rotation_bound:
-            return f"closed form (EAIK, {self.family})"
+            return f"closed form ({self.family})"
         return (
-            f"closed form (EAIK, {self.family}) of the arm made exact, at most {self.position_bound:.1g} m and "
+            f"closed form ({self.family}) of the arm made exact, at most {self.position_bound:.1g} m and "
             f"{self.rotation_bound:.1g} rad away, tried down to the target"
         )
 
-    def starts(self, T: Array) -> Array:
-        """Configurations (s, m) for one target (4, 4), s = 0 and more, which the caller has to try
-        and to check.
+    def rows(self, T: Array) -> tuple[Array, Array]:
+        """Branches (N, 16, m) of targets (N, 4, 4) and their margins (N, 16), NaN where there are
+        fewer.
 
-        Solutions, and nearest ones where there are none (EAIK's least squares). Raises:
-        RuntimeError where EAIK gives up.
+        A branch with a margin above 0 is a solution; another one is the least-squares answer where
+        there is none, or a solution within rounding, which the caller has to try.
         """
-        target = T.copy()
-        target[:3, :3] = T[:3, :3] @ self.form.R_nt.T
-        Q = np.asarray(self.solver.IK(target).Q, np.float64)
-        Q = Q.reshape(-1, len(self.solver.getOriginal_H().T))
-        return Q[np.isfinite(Q).all(axis=1)]
+        return branch_rows(self.arm, self.dof, T)
+
+    def starts(self, T: Array) -> tuple[Array, np.ndarray, np.ndarray]:
+        """Configurations (S, m) for all of the targets (N, 4, 4), one target's after the other's,
+        which the caller has to try and to check; how many each has (N,), and where there may be
+        more solutions (N,).
+
+        These are poses in which a joint that was added to fewer than six may be anywhere, or without
+        any solution of these six, and those with a double solution, which may be two.
+        """
+        rows, margins = self.rows(T)
+        solved = np.asarray((margins > 0.0).any(axis=1))
+        taken = (margins > -_HOPELESS) | ~solved[:, None]
+        taken &= np.isfinite(rows).all(axis=2)
+        double = (margins > -closed_arm.DOUBLE) & (margins <= 0.0)
+        unsure = ((margins == closed_arm.UNSURE) | double).any(axis=1)
+        if self.dof < 6:
+            unsure |= ~solved
+        unsure &= np.isfinite(T).all(axis=(1, 2))
+        return rows[taken], taken.sum(axis=1), unsure
 
 
 def closed_form(chain: Chain) -> ClosedForm | None:
-    """The closed form of an arm, or None where EAIK knows none.
+    """The closed form of an arm, or None where there is none.
 
     It is looked for of the arm itself, then of the arm with its geometry made exact within `EXACT`
     (`Chain.idealised`).
 
-    Raises: MissingExtra without EAIK; InputError, as `Chain.to_hp`, for joints that are not
-    revolute or are coupled.
+    Raises: InputError for joints that are helical or coupled.
     """
-    try:
-        from eaik.IK_HP import HPRobot
-    except ImportError as missing:
-        raise MissingExtra("EAIK", "ik", "inverse kinematics in closed form") from missing
-    if chain.dof != 6:
-        chain.to_hp()  # says what else is in the way
+    for name, kind in zip(chain.joint_names, chain.kinds, strict=True):
+        if kind == "helical":
+            raise InputError(
+                f"closed form: expected revolute and prismatic joints only, {quote(name)} is {kind}"
+            )
+    if chain.nontrivial_coupling is not None:
+        raise InputError(
+            f"closed form: expected one coordinate a joint, the {len(chain.kinds)} joints of {quote(chain.base)} -> "
+            f"{quote(chain.tip)} are coupled to {chain.dof} coordinates"
+        )
+    if not 1 <= chain.dof <= 6:
         return None
-    exact = Idealised(chain, 0.0, 0.0, ())
-    return _of(exact, HPRobot) or _of(chain.idealised(EXACT), HPRobot)
+    found = _of(Idealised(chain, 0.0, 0.0, ()))
+    if found is not None or _ways(chain, EXACT) == _ways(chain, ROUNDING):
+        return found
+    return _of(chain.idealised(EXACT))
 
 
-def _of(near: Idealised, HPRobot: Any) -> ClosedForm | None:
-    form = near.chain.to_hp()
-    if not _is_safe(form):
+def _ways(chain: Chain, tolerance: float) -> list[str]:
+    """The three axes by which an arm may be solved that are so within a tolerance, in words."""
+    near = Tolerance(tolerance, tolerance * chain.reach)
+    return [one.words for one in completions(joints_of(chain), chain.reach, near)]
+
+
+def _of(near: Idealised[Chain]) -> ClosedForm | None:
+    """The closed form of a chain that is exact but for rounding."""
+    found = sharp_arm(near.chain)
+    if found is None:
         return None
-    try:
-        solver = HPRobot(form.H, form.P)
-        # it calls a class that it does not know a known one where there are five joints, and has no
-        # solutions then
-        if not solver.hasKnownDecomposition() or "unknown" in solver.getKinematicFamily().lower():
-            return None
-        found = ClosedForm(form, solver, near.position_bound, near.rotation_bound)
-        if _finds_what_is_known(found, near.chain):
-            return found
-    except RuntimeError:  # of axes that it takes to meet and cannot say where
-        return None
-    return None
-
-
-def _is_safe(form: HPForm) -> bool:
-    """Whether EAIK sees at once that the last three axes meet in a point, or that the second to
-    fourth are parallel.
-
-    Other arms it turns round and looks at again, and those whose two ways round look alike, by a
-    rounding, for ever: that ends the process (1.2.2). It does not where it has an answer before:
-    for three parallel axes, all sines below 1e-13 by its own reckoning, and for a wrist, whose two
-    steps are exactly 0 and stay so, with slanted axes, so that no three of the last four are
-    parallel. Two axes that are neither parallel nor clearly slanted (a sine below 3e-5) it may take
-    to meet and then refuses.
-    """
-    H = form.H
-    P = form.P
-    sines = np.linalg.norm(np.cross(H[:-1], H[1:]), axis=1)
-    clear = ((sines <= _PARALLEL) | (sines >= _TILT)).all()
-    wrist = not P[4:6].any() and sines[3:].min() > _SLANT
-    return bool(clear and (wrist or sines[1:3].max() <= _PARALLEL))
-
-
-def _finds_what_is_known(solver: ClosedForm, chain: Chain) -> bool:
-    """Whether the configurations that poses were made of are among the starts for them."""
-    rng = np.random.default_rng(0)
-    for q in rng.uniform(-np.pi, np.pi, (_ASKED, chain.dof)):
-        off = solver.starts(chain.fk(q)) - q
-        off = np.abs((off + np.pi) % (2 * np.pi) - np.pi)
-        if not (off.max(axis=1, initial=0.0) < _FOUND).any():
-            return False
-    return True
+    return ClosedForm(
+        found.arm, near.chain.dof, found.words, near.position_bound, near.rotation_bound
+    )

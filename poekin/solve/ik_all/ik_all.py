@@ -2,34 +2,34 @@
 
 from __future__ import annotations
 
-import itertools
-from functools import lru_cache
-from typing import Any, Literal, NamedTuple, get_args
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...checks import KERNEL_INT, choice, true_or_false, whole
-from ...errors import InputError, MissingExtra, join_names
+from ...errors import InputError, join_names
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, compiled
 from ...model.kinematics.compiled import CompiledChain
-from ...model.readings.coupled import beyond_own_limits
 from ...model.sampling import joint_ratios
+from ..chain_cache import ChainCache
 from ..ik.task import pose_errors, targets
-from ..joint_units import bounds, joint_units, periods
-from .all_solutions import AllSolutions, MethodUsed, in_words, missing_probability
-from .closed_form import ClosedForm, closed_form
-from .ik_all_search import POSE, Found, Rule, accepted, joined, search, turns_within
+from ..joint_units import JointUnits, bounds, joint_units, periods
+from ..lock import items, locked_rows
+from ..ragged import Ragged
+from .all_solutions import AllSolutions
+from .ik_all_search import POSE, Rule, SearchedArm, accepted
+from .solution_sets.evidence import Evidence, Sampling, missing_probability
+from .solution_sets.found import Found, reduce_parts
+from .solution_sets.places import Box, Places, in_order, make_places
+from .sources import Method, Solvers, find, solvers_for
+from .swivel import N_SWIVEL, redundant_coordinate, sample_values
 
-Method = Literal["auto", "closed", "search"]
-
-MOST = 4096
-"""The most places that `all_revolutions=True` lists for one target."""
-
-_BAD_TARGET = "0 solutions: bad target, it is not made of finite numbers"
-_MANY = 2**63 - 1  # the largest number of `n_revolutions`
+_PERIODS: ChainCache[Array] = ChainCache()
 _MAX_MISSES = 200  # tries without any solution, after which a search gives up
 
 
@@ -40,16 +40,22 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     limits: bool = True,
     method: Method = "auto",
     all_revolutions: bool = False,
+    lock: Mapping[str, ArrayLike] | None = None,
+    n_swivel: int | None = None,
+    redundant: str | None = None,
     min_hits: int = 14,
     restarts: int = 2000,
     iterations: int = 200,
     seed: int = 0,
+    parallel: bool = False,
 ) -> AllSolutions:
     """Every solution q of f(q) = T, of an arm of up to six coordinates, for one target or a batch.
 
-    In closed form by EAIK where it is installed (extra `ik`) and the arm's axes allow it, each
-    solution tried down to the target again; else by search: from random starts until each solution
-    was found `min_hits` times.
+    In closed form where the arm's axes allow it, by elimination for six other revolute joints, of a
+    calibrated arm too, each solution tried down to the target again; else by search: from random
+    starts until each solution was found `min_hits` times. An arm of more
+    coordinates has infinitely many solutions: `lock` keeps some of them at given values, `n_swivel`
+    gives one of seven as many values.
 
     Parameters
     ----------
@@ -59,11 +65,24 @@ def ik_all(  # noqa: PLR0913 - options by keyword
         Target poses of the tip in the base frame, m.
     limits : bool, default True
         Whether only solutions within the chain's limits are listed.
-    method : {"auto", "closed", "search"}, default "auto"
-        "closed" refuses an arm without a closed form; "search" does without EAIK.
+    method : {"auto", "closed", "elimination", "search"}, default "auto"
+        "closed" refuses an arm without a closed form, "elimination" one that it does not take;
+        "auto" takes the first of the three that serves.
     all_revolutions : bool, default False
         Whether all places within the limits that are whole turns apart are listed; else the one
         nearest to 0 of each solution.
+    lock : dict of str to float or array_like, optional
+        Names of coordinates and the values that they keep, rad or m; an array (...) has a value for
+        each target.
+    n_swivel : int, optional
+        Number of values of the redundant coordinate of an arm with seven free coordinates, evenly
+        over its limits or over a whole turn. All solutions with any of these values are listed, in
+        their order; `AllSolutions.families` links them to curves.
+    redundant : str, optional
+        Name of that coordinate; `n_swivel` is 64 then, if it is not given. By default joint 3 of an
+        arm with a spherical shoulder and a spherical wrist, where it gives the arm angle; else the
+        last joint that leaves an arm with a closed form when it is locked (joint 7 of the Panda);
+        else the one that moves most along self-motions.
     min_hits : int, default 14
         How often the search finds each solution before it ends; 14 leaves a chance of about 1e-3
         that one is missing, see `AllSolutions.p_missing`.
@@ -73,25 +92,28 @@ def ik_all(  # noqa: PLR0913 - options by keyword
         Largest number of steps from each start.
     seed : int, default 0
         Seed of the starts; the same seed gives the same result.
+    parallel : bool, default False
+        Whether a long batch is shared out among threads.
 
     Returns
     -------
     solutions : AllSolutions
-        All solutions; `complete` says how sure it is that these are all. Of infinitely many, at
-        some singular poses, one is listed. A target that is not finite has none, and of one without
-        solutions `ik` says why.
+        All solutions; `complete` says whether these are surely all, `explanation` why. Of
+        infinitely many, at some singular poses, one is listed. A target that is not finite has
+        none, and of one without solutions `ik` says why.
 
     Raises
     ------
     InputError
-        If the arm has more than six coordinates, and so infinitely many solutions, or none; if it
-        has no closed form and "closed" is asked; if an option is none of those above.
-    MissingExtra
-        If "closed" is asked and EAIK is not installed.
+        If more than six coordinates are free without `n_swivel`, so that there are infinitely many
+        solutions, or none; if `n_swivel` is asked of an arm that has not seven; if the method that
+        is asked does not solve the arm; if an option is none of those above.
     PoseError
         If an element of T is no pose.
     ShapeError
-        If T has another shape.
+        If T has another shape, or a value of `lock` does not fit it.
+    UnknownName
+        If `lock` or `redundant` name a coordinate that the chain has not.
 
     See Also
     --------
@@ -102,7 +124,8 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     Accuracy: every solution is within 1e-10 m and 1e-10 rad of its target by `Chain.fk` (of arms
     with a reach of more than 100 m, within 1e-12 of that); solutions that rounding cannot tell
     apart are one (tests/solve/ik_all/test_ik_all.py).
-    Source: Ostermeier, Külz and Althoff 2025 (closed form, EAIK).
+    Source: Elias and Wen 2025; Murray, Li and Sastry 1994, Chapter 3 (closed form); Raghavan and
+    Roth 1993 (elimination).
 
     Examples
     --------
@@ -111,249 +134,216 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     >>> every = pk.ik_all(arm, arm.fk([0.4, -1.2, 1.5, -0.3, 0.8, 0.0]), method="search")
     >>> len(every.solutions), every.method
     (8, 'search')
+
+    An arm of seven joints, one of them locked:
+
+    >>> arm = pk.load("panda").chain(tip="panda_hand")
+    >>> q = [0.1, -0.5, 0.2, -2.0, 0.3, 1.6, 0.8]
+    >>> every = pk.ik_all(arm, arm.fk(q), lock={"panda_joint7": 0.8})
+    >>> bool(abs(every.solutions - q).max(axis=1).min() < 1e-6)
+    True
     """
     compiled_chain = compiled(chain)
-    given = compiled_chain.chain
-    units = joint_units(compiled_chain)
-    fast = units.fast
-    _check_chain(given)
-    true_or_false(limits, "limits")
-    true_or_false(all_revolutions, "all_revolutions")
     choice(method, get_args(Method), "method")
-    whole(min_hits, "min_hits", 1, KERNEL_INT)
-    whole(restarts, "restarts", 1, KERNEL_INT)
-    whole(iterations, "iterations", 1, KERNEL_INT)
+    for value, what in (
+        (limits, "limits"),
+        (all_revolutions, "all_revolutions"),
+        (parallel, "parallel"),
+    ):
+        true_or_false(value, what)
+    for number, what in (
+        (min_hits, "min_hits"),
+        (restarts, "restarts"),
+        (iterations, "iterations"),
+    ):
+        whole(number, what, 1, KERNEL_INT)
     whole(seed, "seed", 0, KERNEL_INT)
+    if n_swivel is None and redundant is not None:
+        n_swivel = N_SWIVEL
+    if n_swivel is not None:
+        whole(n_swivel, "n_swivel", 1, KERNEL_INT)
     wanted = targets(T, "T")
-    rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
-    finite = np.asarray(np.isfinite(rows).all(axis=(1, 2)))
-    solver = _solver(fast.chain, method)
     rule = Rule(min_hits, restarts, iterations, _MAX_MISSES, int(seed))
-    found = _found(fast, rows[finite], solver, rule, limits)
-    every = _of_every_target(found, finite, fast.dof)
-    places = _places(fast.chain, every, limits, all_revolutions)
-    q = units.coordinates(places.q, bounds(given, limits))
-    order = _order(q * joint_ratios(given), places.owner)
-    places = _Places(q[order], places.owner[order], places.number[order], places.within)
-    closed = None if solver is None else solver.said()
-    complete = [
-        in_words(f, int(inside), closed) if known else _BAD_TARGET
-        for f, inside, known in zip(every, places.within, finite, strict=True)
-    ]
-    method_used = "search" if solver is None else "closed form"
-    return _result(given, wanted, every, places, complete, method_used)
+    batch = wanted.shape[:-2]
+    question = _question(compiled_chain, batch, items(lock), limits, (n_swivel, redundant))
+    return _solved(question, wanted, method, rule, all_revolutions, parallel)
 
 
-def _check_chain(chain: Chain) -> None:
-    m = chain.dof
+@dataclass(frozen=True, eq=False)
+class _Question:
+    """Question to an arm: given, the user's chain; units, its joint units; box, where solutions
+    are wanted; values (N, m), those of locked coordinates in joint units, `n_swivel` times as many
+    rows as targets; free (m,), what may move; kept, names of what is locked, with the user's values
+    for each target; redundant, the coordinate that is given values, or None.
+    """
+
+    given: Chain
+    units: JointUnits
+    limits: bool
+    box: Box
+    values: Array
+    free: np.ndarray
+    lock: tuple[tuple[str, ArrayLike], ...]
+    n_swivel: int = 1
+    redundant: int | None = None
+
+    @property
+    def by_joints(self) -> bool:
+        """Whether joints have limits of their own that count."""
+        return self.limits and bool(np.isfinite(self.units.fast.chain.joint_limits).any())
+
+    def coordinates(self, places: Places, batch: tuple[int, ...]) -> Places:
+        """Places in the user's coordinates, what is locked to the last digit."""
+        q = self.units.coordinates(places.q, bounds(self.given, self.limits))
+        for name, value in self.lock:
+            values = np.broadcast_to(np.asarray(value, float), batch).ravel()
+            q[:, self.given.q_names.index(name)] = values[places.owner // self.n_swivel]
+        return places._replace(q=q)
+
+
+def _question(
+    fast: CompiledChain,
+    batch: tuple[int, ...],
+    lock: tuple[tuple[str, ArrayLike], ...] | None,
+    limits: bool,
+    swivel: tuple[int | None, str | None],
+) -> _Question:
+    """Raises: InputError, ShapeError, UnknownName."""
+    n_swivel, asked = swivel
+    lock = lock or ()
+    units = joint_units(fast, bool(lock) or n_swivel is not None)
+    chain = units.fast.chain
+    within = bounds(chain, limits)
+    values = locked_rows(units, lock, within, batch)
+    locked = [name for name, _ in lock]
+    free = np.array([name not in locked for name in chain.q_names], bool)
+    turn = _PERIODS.get(units.fast)
+    if turn is None:
+        turn = _PERIODS.keep(units.fast, periods(chain))
+    turn = np.where(free, turn, 0.0)
+    box = Box(within, turn)
+    if n_swivel is None:
+        _check_free(chain, free)
+        return _Question(fast.chain, units, limits, box, values, free, lock)
+    some = values[0] if len(values) else np.where(free, np.nan, 0.0)
+    k = redundant_coordinate(chain, some, asked)
+    samples = sample_values(chain, k, n_swivel, limits)
+    count = len(values)
+    values = np.repeat(values, n_swivel, axis=0)
+    values[:, k] = np.tile(samples, count)
+    free[k] = False
+    return _Question(fast.chain, units, limits, box, values, free, lock, n_swivel, k)
+
+
+def _check_free(chain: Chain, free: np.ndarray) -> None:
+    m = int(free.sum())
     if m > 6:
+        names = join_names(np.array(chain.q_names)[free])
         raise InputError(
-            f"ik_all: expected an arm of up to six coordinates, got {m} "
-            f"({join_names(chain.q_names)}): it has infinitely many solutions; ik finds one: with "
-            "`nearest_to` or `secondary_objective` one of your choice, with `lock` at given values "
-            "of some coordinates"
+            f"ik_all: expected an arm of up to six coordinates, got {m} ({names}): it has infinitely "
+            "many solutions; ik finds one of your choice; here `lock` keeps coordinates at given "
+            "values, and `n_swivel=64` gives one of seven 64 values"
         )
     if m == 0:
-        raise InputError("ik_all: expected an arm of one to six coordinates, the chain has none")
+        which = "all of them are locked" if len(free) else "the chain has none"
+        raise InputError(f"ik_all: expected an arm of one to six coordinates, {which}")
 
 
-def _solver(chain: Chain, method: Method) -> ClosedForm | None:
-    """The closed form to use, or None for the search."""
-    if method == "search":
-        return None
-    try:
-        solver = _closed_form(chain)
-    except (MissingExtra, InputError):  # of joints that slide, or are coupled
-        if method == "closed":
-            raise
-        return None
-    if solver is None and method == "closed":
-        raise InputError(
-            f"ik_all: {chain!r} has no closed form that EAIK knows (no three axes that meet, or are parallel, where it "
-            "needs them); method='search' finds the solutions"
-        )
-    return solver
-
-
-def _found(
-    fast: CompiledChain,
-    T: Array,
-    solver: ClosedForm | None,
+def _solved(
+    question: _Question,
+    wanted: Array,
+    method: Method,
     rule: Rule,
-    limits: bool,
-) -> list[Found]:
-    """Solutions of targets (N, 4, 4), by the closed form where there is one, else by search."""
-    if solver is None:
-        none = np.empty((0, fast.dof))
-        starts = [none] * len(T)
-        return search(fast, T, starts, rule, limits)
-    starts, given_up = _starts(solver, T)
-    these_alone = Rule(1, 0, rule.iterations)
-    found = search(fast, T, starts, these_alone, limits)
-    # where solutions become one or infinitely many, a closed form may lose them
-    unsure = [k for k, f in enumerate(found) if f.singular or k in given_up]
-    given = [starts[k] for k in unsure]
-    again = search(fast, T[unsure], given, rule, limits)
-    for k, f in zip(unsure, again, strict=True):
-        found[k] = f
-    return found
-
-
-def _of_every_target(
-    found: list[Found],
-    finite: np.ndarray,
-    dof: int,
-) -> list[Found]:
-    """Solutions of all targets, none of those that are not finite."""
-    nothing = Found(
-        solutions=np.empty((0, dof)),
-        hits=np.empty(0),
-        ends=0,
-        restarts=1,
-        full=False,
-    )
-    every = [nothing] * len(finite)
-    numbers = np.flatnonzero(finite)
-    for k, f in zip(numbers, found, strict=True):
-        every[k] = f
-    return every
-
-
-def _starts(solver: ClosedForm, T: Array) -> tuple[list[Array], set[int]]:
-    """The closed form's solutions of each target, and the numbers of those for which it gives up."""
-    starts: list[Array] = []
-    given_up = set()
-    for k, target in enumerate(T):
-        try:
-            starts.append(solver.starts(target))
-        except RuntimeError:
-            starts.append(np.empty((0, 6)))
-            given_up.add(k)
-    return starts, given_up
-
-
-_closed_form = lru_cache(maxsize=32)(closed_form)
-
-
-class _Places(NamedTuple):
-    """Configurations q (S, m) within the limits, and the target of each.
-
-    `number` says for how many places within the limits each stands, `within` how many solutions
-    each target has there.
-    """
-
-    q: Array
-    owner: np.ndarray
-    number: np.ndarray
-    within: np.ndarray
-
-
-def _places(
-    chain: Chain,
-    found: list[Found],
-    limits: bool,
     all_revolutions: bool,
-) -> _Places:
-    """The solutions within the limits; of those that are whole turns apart the one nearest to 0, or
-    all.
-    """
-    Q, owner = joined(found, chain.dof)
-    first, last = turns_within(chain, Q, limits)
-    kept = (first <= last).all(axis=1)
-    Q = Q[kept]
-    owner = owner[kept]
-    first = first[kept]
-    last = last[kept]
-    turns = np.clip(0.0, first, last)
-    bounded = np.isfinite(first) & np.isfinite(last)
-    first = np.where(bounded, first, turns)
-    last = np.where(bounded, last, turns)
-    with np.errstate(over="ignore"):
-        number = (last - first + 1).prod(axis=1)
-    row = np.arange(len(Q))
-    by_joints = limits and np.isfinite(chain.joint_limits).any()
-    if all_revolutions or by_joints:
-        places = np.bincount(owner, number, minlength=1)
-        most = places.max(initial=0)
-        if most > MOST:
-            raise InputError(
-                f"all_revolutions: {most:.0f} places for one target, more than {MOST}; "
-                "`n_revolutions` of the result tells"
-            )
-        turns = _turns_between(first, last)
-        row = np.repeat(row, number.astype(int))
-    q = np.clip(Q[row] + periods(chain) * turns, *bounds(chain, limits).T) + 0.0
-    if by_joints:
-        kept = np.flatnonzero(~beyond_own_limits(chain, q).any(axis=1))
-        number = np.bincount(row[kept], minlength=len(Q))
-        if not all_revolutions:
-            kept = kept[np.unique(row[kept], return_index=True)[1]]
-        q = q[kept]
-        row = row[kept]
-    within = np.bincount(owner[np.unique(row)], minlength=len(found))
-    if all_revolutions:
-        number = np.ones(len(Q))
-    counts = np.array([int(min(n, _MANY)) for n in number[row]], np.int64)
-    return _Places(q, owner[row], counts, within)
+    parallel: bool,
+) -> AllSolutions:
+    fast = question.units.fast
+    batch = wanted.shape[:-2]
+    rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
+    rows = np.repeat(rows, question.n_swivel, axis=0) if question.n_swivel > 1 else rows
+    finite = np.asarray(np.isfinite(rows).all(axis=(1, 2)))
+    numbers = np.flatnonzero(finite)
+    values = question.values[finite]
+    solvers = solvers_for(fast.chain, values, question.free, method)
+    arm = SearchedArm(fast, question.box, question.free, parallel)
+    found = find(arm, rows[finite], values, solvers, rule)
+    found = found.placed(numbers, len(rows))
+    places = make_places(fast.chain, found.q, question.box, question.by_joints, all_revolutions)
+    places = in_order(question.coordinates(places, batch), joint_ratios(question.given))
+    errors = pose_errors(question.given, POSE, places.q, rows[places.owner])
+    reached = (errors <= accepted(question.given)).all(axis=1)
+    if not reached.all():
+        errors = errors[reached]
+        places = places._replace(
+            q=places.q[reached],
+            owner=places.owner[reached],
+            number=places.number[reached],
+        )
+    evidence = _evidence(question, found, places, finite, solvers)
+    return _result(question, wanted, places, errors, evidence)
 
 
-def _turns_between(first: Array, last: Array) -> Array:
-    """All whole turns (S, m) from the first to the last ones (s, m), row after row, the fewest first."""
-    turns = [
-        product
-        for f, g in zip(first, last, strict=True)
-        for product in sorted(itertools.product(*map(np.arange, f, g + 1)), key=np.linalg.norm)
-    ]
-    return np.array(turns, float).reshape(-1, first.shape[1])
-
-
-def _order(q: Array, owner: np.ndarray) -> np.ndarray:
-    """The order of solutions (S, m): target by target, sorted; what differs by rounding alone, by
-    later coordinates.
-    """
-    columns = np.round(q, 9).T
-    return np.lexsort((*columns[::-1], owner))
+def _evidence(
+    question: _Question,
+    found: Found,
+    places: Places,
+    finite: np.ndarray,
+    solvers: Solvers | None,
+) -> Evidence:
+    """Evidence on the solutions of each target, its samples taken together."""
+    used = None if solvers is None else solvers.used()
+    chance = missing_probability(found, used is not None and used.is_exact)
+    n = question.n_swivel
+    k = question.redundant
+    sampling = None
+    self_motion = dict(found.self_motion)
+    if k is not None:
+        sampling = Sampling(question.given.q_names[k], n)
+        chance = 1.0 - (1.0 - chance).reshape(-1, n).prod(axis=1)
+        self_motion = {}
+    return Evidence(
+        finite=finite[::n],
+        found=found.q.counts.reshape(-1, n).sum(axis=1),
+        within=places.within.reshape(-1, n).sum(axis=1),
+        least_hits=found.least_hits().reshape(-1, n).min(axis=1),
+        ends=found.ends.reshape(-1, n).sum(axis=1),
+        restarts=found.restarts.reshape(-1, n).sum(axis=1),
+        full=np.asarray(found.full.reshape(-1, n).any(axis=1)),
+        p_missing=chance,
+        self_motion=self_motion,
+        free=int(question.free.sum()),
+        solver=used,
+        sampling=sampling,
+    )
 
 
 def _result(
-    chain: Chain,
+    question: _Question,
     T: Array,
-    found: list[Found],
-    places: _Places,
-    complete: list[str],
-    method: MethodUsed,
+    places: Places,
+    errors: Array,
+    evidence: Evidence,
 ) -> AllSolutions:
-    """The result, of places in order, every solution looked at by `Chain.fk`."""
     batch = T.shape[:-2]
-    wanted = T.reshape(-1, 4, 4)[places.owner]
-    errors = pose_errors(chain, POSE, places.q, wanted)
-    reached = (errors <= accepted(chain)).all(axis=1)
-    good = np.flatnonzero(reached)
-    numbers = np.arange(len(found) + 1)
-    ends = np.searchsorted(places.owner[good], numbers)
-    own = [good[a:b] for a, b in itertools.pairwise(ends)]
-    nothing = (np.nan, np.nan)
-    worst = [errors[k].max(axis=0) if len(k) else nothing for k in own]
-    position, rotation = np.reshape(worst, (-1, 2)).T
-    moving = [len(f.self_motion_coordinates) > 0 for f in found]
-    counts = [len(f.solutions) for f in found]
-    missing = [missing_probability(f) for f in found]
-    lists: dict[str, Any] = {
-        "solutions": [places.q[k] for k in own],
-        "n_revolutions": [places.number[k] for k in own],
-        "complete": complete,
-    }
-    if not batch:
-        lists = {name: one for name, (one,) in lists.items()}
+    counts = np.bincount(places.owner // question.n_swivel, minlength=len(evidence.finite))
+    position, rotation = reduce_parts(np.maximum, errors, Ragged(errors, counts), np.nan).T
+    complete = evidence.complete.reshape(batch)
+    k = question.redundant
     return AllSolutions(
-        **lists,
-        method=method,
-        count=np.diff(ends).reshape(batch),
-        anywhere=np.array(counts, int).reshape(batch),
-        continuum=np.array(moving, bool).reshape(batch),
-        p_missing=np.array(missing).reshape(batch),
+        q=places.q,
+        revolutions=places.number,
+        counts=counts.reshape(batch),
+        method="search" if evidence.solver is None else evidence.solver.method,
+        anywhere=evidence.found.reshape(batch),
+        continuum=evidence.continuum.reshape(batch),
+        complete=complete if batch else bool(complete),
+        p_missing=evidence.p_missing.reshape(batch),
         position_error=position.reshape(batch),
         rotation_error=rotation.reshape(batch),
-        chain=chain,
+        self_motion_coordinates=dict(evidence.self_motion),
+        redundant=None if k is None else question.given.q_names[k],
+        sample=None if k is None else places.owner % question.n_swivel,
+        evidence=evidence,
+        chain=question.given,
         target=T,
     )

@@ -6,18 +6,22 @@ Arms and configurations are in joint units (`joint_units`).
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...engine.jit import threads
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ...model.sampling import sampling_range
 from ..ik.ik_problem import kernel_options
 from ..ik.task import Task
-from ..joint_units import bounds, periods
+from ..ragged import Ragged
+from .solution_sets.found import Found, joined
+from .solution_sets.places import Box, turns_within
 
 POSE = Task(
     "pose",
@@ -33,35 +37,15 @@ def accepted(chain: Chain) -> float:
     return max(1e-10, 1e-12 * chain.reach)
 
 
-_EDGE = 1e-12  # rad or m: a solution that is outside the limits by less is at them
 # m per metre of reach, and rad: where a try ends, some 100 times the rounding of a pose
 _AIM = 1e-13
 # solutions of one target that are kept: isolated ones of six revolute joints are at most 16
 _ROOM = 40
-_AT_ONCE = 32  # targets between which an interrupt is seen
+_AT_ONCE = 4096  # targets whose solutions are in memory with all their room
+_UNINTERRUPTED = 32  # targets between which an interrupt is seen
 _SINGULAR = 1e-5  # of the largest singular value: below it a solution may be one of a continuum
 _MOVES = 0.02  # of the largest change: what changes by less does not move along a continuum
 _STEP = 0.05  # rad or m: how far a walk along a continuum goes
-
-
-@dataclass(frozen=True, eq=False)
-class Found:
-    """Solutions found for one target, limits apart.
-
-    Attributes: solutions (s, m); hits (s,), how often each was found; ends, how many tries ended at
-    any of them; restarts, 0 where the given starts were enough; full, whether there was no room for
-    more; singular, whether any of them is singular; self_motion_coordinates, those that move along a
-    continuum of solutions, of which one solution
-    is listed; none where there is no continuum.
-    """
-
-    solutions: Array
-    hits: Array
-    ends: int
-    restarts: int
-    full: bool
-    singular: bool = False
-    self_motion_coordinates: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -79,151 +63,164 @@ class Rule:
     seed: int = 0
 
 
-def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
-    """The fewest and the most periods (S, m) that may be added to configurations within the limits.
-
-    The fewest are more than the most where there is no way, infinite where there is no limit.
+@dataclass(frozen=True, eq=False)
+class SearchedArm:
+    """The kernel's search of one arm: fast, the arm in joint units; box, the domain within which
+    solutions are wanted; free (m,), whether coordinates may move; parallel, whether long batches
+    are shared out among threads.
     """
-    turn = periods(chain)
-    low, high = bounds(chain, limits).T
-    turns = turn > 0
-    step = np.where(turns, turn, 1.0)
-    lowest = low - _EDGE
-    highest = high + _EDGE
-    first = np.ceil((lowest - Q) / step)
-    last = np.floor((highest - Q) / step)
-    inside = (lowest <= Q) & (highest >= Q)
-    first = np.where(turns, first, ~inside)
-    last = np.where(turns, last, 0.0)
-    return first, last
 
+    fast: CompiledChain
+    box: Box
+    free: np.ndarray
+    parallel: bool = False
 
-def joined(found: list[Found], dof: int) -> tuple[Array, np.ndarray]:
-    """Solutions (S, m) of all targets, and the number of the target of each."""
-    none = np.empty((0, dof))
-    parts = [f.solutions for f in found]
-    numbers = np.arange(len(found))
-    counts = [len(q) for q in parts]
-    owner = np.repeat(numbers, counts)
-    return np.concatenate([none, *parts]), owner
+    @cached_property
+    def ranges(self) -> Array:
+        """Ranges of random starts (m, 2): a coordinate that turns is free, and brought into its
+        limits at the end; another one has only its own range.
+        """
+        turn = self.box.periods
+        ranges = np.stack(sampling_range(self.fast.chain), axis=1)
+        turns = turn > 0
+        ranges[turns] = turn[turns, None] * [-0.5, 0.5]
+        return ranges
 
 
 def search(
-    fast: CompiledChain,
+    arm: SearchedArm,
     T: Array,
-    starts: Sequence[Array],
+    values: Array,
+    starts: Ragged,
     rule: Rule,
-    limits: bool,
-) -> list[Found]:
+) -> Found:
     """Solutions of targets (N, 4, 4) from given starts (s, m) of each and then from random ones, by
-    the rule.
+    the rule. `values` (N, m) are those of coordinates that are not free.
     """
-    found: list[Found] = []
-    for first in range(0, len(T), _AT_ONCE):
-        some = slice(first, first + _AT_ONCE)
-        found += _search(fast, T[some], starts[some], rule, first)
-    return _looked_at(fast, T, found, limits)
+    parts = [
+        _search(
+            arm,
+            T[first : first + _AT_ONCE],
+            values[first : first + _AT_ONCE],
+            starts.part(first, first + _AT_ONCE),
+            rule,
+            first,
+        )
+        for first in range(0, len(T), _AT_ONCE)
+    ]
+    found = joined([part for part, _ in parts], arm.fast.dof)
+    bounds = np.concatenate([np.empty(0), *(bound for _, bound in parts)])
+    return _examined(arm, T, values, found, bounds)
 
 
 def _search(
-    fast: CompiledChain,
+    arm: SearchedArm,
     T: Array,
-    starts: Sequence[Array],
+    values: Array,
+    starts: Ragged,
     rule: Rule,
     first: int = 0,
-) -> list[Found]:
+) -> tuple[Found, Array]:
+    """Solutions of targets, and a bound of the condition of each (S,)."""
     from ...engine.kernels import ik_all_kernel as kernel  # which imports Numba
 
+    fast = arm.fast
     chain = fast.chain
     N = len(T)
     m = fast.dof
-    rows, given = _padded(starts, m)
-    turn = periods(chain)
-    # a coordinate that turns is free, and brought into its limits at the end; another one has only
-    # its own range
-    ranges = np.stack(sampling_range(chain), axis=1)
-    turns = turn > 0
-    ranges[turns] = turn[turns, None] * [-0.5, 0.5]
     rules = np.zeros(kernel.RULE)
     rules[kernel.MAX_ERROR] = accepted(chain)
     rules[kernel.MIN_HITS] = rule.min_hits
     rules[kernel.RESTARTS] = rule.restarts
     rules[kernel.MAX_MISSES] = rule.max_misses
-    q = np.empty((N, _ROOM, m))
-    hits = np.empty((N, _ROOM))
+    room = max(_ROOM if rule.restarts else 0, int(starts.counts.max(initial=1)))
+    q = np.empty((N, room, m))
+    hits = np.empty((N, room))
+    bounds = np.empty((N, room))
     info = np.empty((N, kernel.INFO))
-    free = bounds(chain, False)
-    indices = np.arange(first, first + N, dtype=np.float64)
+    limits = np.tile([-np.inf, np.inf], (m, 1))
     options = kernel_options(POSE, _AIM * chain.reach, _AIM, rule.iterations)
-    tries = (rows, given, free, ranges, turn, options, rules, indices, rule.seed)
-    T = np.ascontiguousarray(T)
-    kernel.search.call(fast.hybrid_address, T, *tries, q, hits, info)
-    found = []
-    for k, numbers in enumerate(info.astype(int).tolist()):
-        count = numbers[kernel.FOUND]
-        one = Found(
-            solutions=q[k, :count].copy(),
-            hits=hits[k, :count].copy(),
-            ends=numbers[kernel.AT_ENDS],
-            restarts=numbers[kernel.AT_RESTARTS],
-            full=numbers[kernel.FULL] > 0,
-        )
-        found.append(one)
-    return found
+    fixed = (limits, arm.ranges, arm.box.periods, arm.free.astype(float))
+
+    def run(
+        T: Array, starts: Array, given: Array, values: Array, indices: Array, *out: Any
+    ) -> None:
+        for k in range(0, len(T), _UNINTERRUPTED):
+            some = slice(k, k + _UNINTERRUPTED)
+            kernel.search.call(
+                fast.hybrid_address, T[some], starts[some], given[some], *fixed, values[some],
+                options, rules, indices[some], rule.seed, *(array[some] for array in out),
+            )  # fmt: skip
+
+    given = starts.counts.astype(np.float64)
+    indices = np.arange(first, first + N, dtype=np.float64)
+    arrays = (np.ascontiguousarray(T), starts.padded(0.0), given, values, indices)
+    results = (q, hits, bounds, info)
+    if arm.parallel:
+        threads.share_out(run, *arrays, *results, rows=_UNINTERRUPTED)
+    else:
+        run(*arrays, *results)
+    numbers = info.astype(int)
+    counts = numbers[:, kernel.FOUND]
+    there = np.arange(room) < counts[:, None]
+    found = Found(
+        q=Ragged(q[there], counts),
+        hits=hits[there],
+        ends=numbers[:, kernel.AT_ENDS],
+        restarts=numbers[:, kernel.AT_RESTARTS],
+        full=numbers[:, kernel.FULL] > 0,
+        singular=np.zeros(N, bool),
+    )
+    return found, bounds[there]
 
 
-def _padded(starts: Sequence[Array], dof: int) -> tuple[Array, Array]:
-    """Starts of all targets (N, s, m), filled up to as many of each, and how many are given (N,)."""
-    given = np.array([len(Q) for Q in starts], np.float64)
-    most = int(given.max(initial=0))
-    rows = np.zeros((len(starts), most, dof))
-    for k, Q in enumerate(starts):
-        rows[k, : len(Q)] = Q
-    return rows, given
-
-
-def _looked_at(
-    fast: CompiledChain,
+def _examined(
+    arm: SearchedArm,
     T: Array,
-    found: list[Found],
-    limits: bool,
-) -> list[Found]:
+    values: Array,
+    found: Found,
+    bounds: Array,
+) -> Found:
     """Which targets have singular solutions; of those that belong to a continuum only one is kept,
     within the limits if one is.
     """
-    result = list(found)
-    q, owner = joined(found, fast.dof)
-    J = fast.chain.jacobian(q, frame="hybrid")
-    J[:, 3:] /= _size(fast.chain)  # so that the unit of length is of no matter
+    size = _size(arm.fast.chain)
+    suspect = np.flatnonzero(bounds < _SINGULAR * max(size, 1.0 / size))
+    if not len(suspect):
+        return found
+    q = found.q
+    J = arm.fast.chain.jacobian(q.rows[suspect], frame="hybrid")[:, :, arm.free]
+    J[:, 3:] /= size  # so that the unit of length is of no matter
     sizes = np.linalg.svd(J, compute_uv=False)
-    singular = sizes[:, -1] < _SINGULAR * sizes[:, 0]
-    for k in np.unique(owner[singular]):
-        f = replace(found[k], singular=True)
-        result[k] = f
-        ways: dict[int, Array] = {}
-        for j, i in enumerate(np.flatnonzero(owner == k)):
-            way = None
-            if singular[i]:
-                way = _way_along(fast, T[k], q[i], J[i])
-            if way is not None:
-                change = np.abs(way)
-                ways[j] = change / change.max()
-        if ways:
-            met = list(ways)
-            first, last = turns_within(fast.chain, f.solutions[met], limits)
-            within = (first <= last).all(axis=1)
-            kept = met[int(np.argmax(within))]
-            every = range(len(f.hits))
-            alone = [j for j in every if j == kept or j not in ways]
-            changes = np.max(list(ways.values()), axis=0)
-            moving = itertools.compress(fast.q_names, changes > _MOVES)
-            result[k] = replace(
-                f,
-                solutions=f.solutions[alone],
-                hits=f.hits[alone],
-                self_motion_coordinates=tuple(moving),
-            )
-    return result
+    is_singular = sizes[:, -1] < _SINGULAR * sizes[:, 0]
+    singular = found.singular.copy()
+    kept = np.ones(len(q.rows), bool)
+    self_motion = {}
+    owner = q.owner[suspect]
+    for k in np.unique(owner[is_singular]).tolist():
+        singular[k] = True
+        one = Target(T[k], values[k])
+        ways = {
+            int(suspect[i]): _way_along(arm, one, q.rows[suspect[i]], J[i])
+            for i in np.flatnonzero(is_singular & (owner == k))
+        }
+        along = {row: np.abs(way) for row, way in ways.items() if way is not None}
+        if along:
+            met = list(along)
+            fewest, most = turns_within(arm.box, q.rows[met])
+            within = (fewest <= most).all(axis=1)
+            kept[met] = False
+            kept[met[int(np.argmax(within))]] = True
+            changes = np.max([way / way.max() for way in along.values()], axis=0)
+            self_motion[k] = tuple(itertools.compress(arm.fast.q_names, changes > _MOVES))
+    return replace(found.kept(kept), singular=singular, self_motion=self_motion)
+
+
+class Target(NamedTuple):
+    """Pose (4, 4) that is wanted, and the values (m,) of coordinates that are not free."""
+
+    T: Array
+    values: Array
 
 
 def _size(chain: Chain) -> float:
@@ -234,13 +231,13 @@ def _size(chain: Chain) -> float:
 
 
 def _way_along(
-    fast: CompiledChain,
-    T: Array,
+    arm: SearchedArm,
+    target: Target,
     q: Array,
     J: Array,
 ) -> Array | None:
     """Changes of the coordinates along a continuum of solutions through q, or None where there is
-    none.
+    none. J is that of the free coordinates.
 
     A step in a direction that does not move the tool to first order is tried down to the target
     again: of a double solution it comes back, along a continuum it stays a step away.
@@ -248,14 +245,16 @@ def _way_along(
     _, sizes, V = np.linalg.svd(J)
     singular = sizes < _SINGULAR * sizes[0]
     lost = V[: len(sizes)][singular]
-    turn = periods(fast.chain)
+    turn = arm.box.periods
     divisor = np.where(turn > 0, turn, np.inf)
     rule = Rule(min_hits=1, restarts=0, iterations=200)
     for way in lost:
-        start = q + _STEP * way
-        (end,) = _search(fast, T[None], [start[None]], rule)
-        if len(end.solutions):
-            step = end.solutions[0] - q
+        start = q.copy()
+        start[arm.free] += _STEP * way
+        one = Ragged(start[None], np.array([1]))
+        end, _ = _search(arm, target.T[None], target.values[None], one, rule)
+        if len(end.q.rows):
+            step = end.q.rows[0] - q
             step -= turn * np.round(step / divisor)
             length = np.linalg.norm(step)
             if _STEP / 4 < length < 2 * _STEP:

@@ -14,11 +14,12 @@ from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, compiled
 from ...results import Progress
 from ..ik.diagnosis import KIND
-from ..ik.ik_problem import Settings, hashable, items, make_problem
+from ..ik.ik_problem import Settings, hashable, make_problem
 from ..ik.joint_domain import first_tries
 from ..ik.solution import BAD_TARGET, SOLVED, Names, Solution
 from ..ik.task import TaskName, TaskNames, targets
 from ..joint_units import bounds
+from ..lock import items
 from ..per_coordinate import per_coordinate
 from .follower import Follower
 from .path_interval import limits_of_joints

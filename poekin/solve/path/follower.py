@@ -315,10 +315,8 @@ class Follower:
         solved = info[:, codes.AT_STATE] == codes.SOLVED
         q = q[solved]
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
-            near_to = last
-            if last is None:
-                near_to = domain.ranges.mean(axis=1)
-            q = domain.wrapped(q, near_to)
+            middle = domain.ranges.mean(axis=1)
+            q = domain.wrapped(q, middle if last is None else last)
         if last is not None and turn == 0:
             here = self.problem.coordinates(last)
             near = solve(self.problem, self.targets[k], nearest_to=here)

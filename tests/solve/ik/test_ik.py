@@ -109,6 +109,27 @@ def test_a_target_s_result_does_not_depend_on_its_batch_s_shape():
     np.testing.assert_array_equal(one.q, flat.q[0])
 
 
+@pytest.mark.parametrize("task", ["pose", "position", "rotation", "direction"])
+@pytest.mark.parametrize("start", [None, "near", "beyond"])
+def test_one_target_is_solved_as_a_batch_of_one(task, start):
+    free = UR5.replace(limits=np.tile([-np.inf, np.inf], (6, 1)))
+    for arm in (PANDA, UR5, free):
+        for q in arm.random(8, 6):
+            q0 = None if start is None else q + {"near": 0.05, "beyond": 9.0}[start]
+            lock = {arm.q_names[1]: float(q[1])} if start == "near" else None
+            options: dict[str, Any] = {"task": task, "lock": lock}
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", pk.PoekinWarning)
+                one = ik(arm, arm.fk(q), q0=q0, **options)
+                many = ik(arm, arm.fk(q)[None], q0=q0, **options)
+            for name in ("q", "success", "reason", "iterations", "restarts"):
+                np.testing.assert_array_equal(getattr(one, name), getattr(many, name)[0])
+                assert getattr(one, name).dtype == getattr(many, name).dtype
+            for name in ("position_error", "rotation_error", "distance_beyond_reach"):
+                assert getattr(one, name) == pytest.approx(getattr(many, name)[0], abs=1e-14)
+            assert one.success.shape == one.reason.shape == ()
+
+
 def test_without_a_start_it_begins_near_the_middle_of_the_limits():
     T = PANDA.fk(PANDA.random(4, 200))
     middle = PANDA.limits.mean(axis=1)
@@ -228,14 +249,14 @@ def test_nan_in_one_target_is_nan_in_its_solution_only():
 @pytest.mark.parametrize("at", [(0, 0), (1, 2), (0, 3), (2, 3), (3, 0), (3, 3)])
 def test_a_target_that_is_not_finite_is_its_own_affair(at, bad):
     T = UR5.fk(UR5.random(0, 3))
-    expected, every = ik(UR5, T).q, ik_all(UR5, T, limits=False).count
+    expected, every = ik(UR5, T).q, ik_all(UR5, T, limits=False).counts
     T[1][at] = bad
     found = ik(UR5, T)
     assert found.reason.tolist() == ["solved", "bad target", "solved"]
     np.testing.assert_array_equal(found.q[[0, 2]], expected[[0, 2]])
     assert np.isnan(found.q[1]).all()
     assert ik(UR5, T[1]).reason == "bad target"
-    assert ik_all(UR5, T, limits=False).count.tolist() == [every[0], 0, every[2]]
+    assert ik_all(UR5, T, limits=False).counts.tolist() == [every[0], 0, every[2]]
     assert follow(UR5, T).reason.tolist()[1] == "bad target"
     T[2, 0, 0] += 0.5
     with pytest.raises(PoseError, match=r"T\[2\] is no pose"):

@@ -11,7 +11,8 @@ import poekin as pk
 from poekin.engine.kernels import ik_codes as codes
 from poekin.errors import InputError
 from poekin.solve.ik import ik_problem
-from poekin.solve.ik.ik_problem import Settings, hashable, items, make_problem
+from poekin.solve.ik.ik_problem import Settings, hashable, make_problem
+from poekin.solve.lock import items
 
 ARM = pk.load("ur5").chain().compile()
 GIVEN = Settings("pose", None, True, 1e-9, 2e-9, None, None, 7, 30, 3, False)

@@ -112,13 +112,13 @@ def test_whole_periods_are_taken_off_towards_zero_or_what_is_near():
     free = room()
     q = np.array([[7.0, -3.5], [np.pi - 0.1, 20.0]])
     np.testing.assert_allclose(
-        free.wrapped(q), [[7 - 2 * np.pi, 2 * np.pi - 3.5], [np.pi - 0.1, 20 - 6 * np.pi]]
+        free.principal(q), [[7 - 2 * np.pi, 2 * np.pi - 3.5], [np.pi - 0.1, 20 - 6 * np.pi]]
     )
     near = free.wrapped(q, np.array([6.0, 3.0]))
     np.testing.assert_allclose(near, [[7, 2 * np.pi - 3.5], [np.pi - 0.1, 20 - 6 * np.pi]])
     # With limits only towards what is near, and not beyond them.
     limited = room(limits=[[-4, 8], [-1, 1]])
-    np.testing.assert_array_equal(limited.wrapped(np.array([7.0, 0.5])), [7, 0.5])
+    np.testing.assert_array_equal(limited.principal(np.array([7.0, 0.5])), [7, 0.5])
     np.testing.assert_allclose(
         limited.wrapped(np.array([7.0, 0.5]), np.array([-5.0, 7])), [7 - 2 * np.pi, 0.5]
     )
@@ -128,7 +128,7 @@ def test_whole_periods_are_taken_off_towards_zero_or_what_is_near():
     nowhere = np.full((2, 2), [-np.inf, np.inf])
     periods = np.full(2, 2 * np.pi)
     locked = JointDomain(nowhere, np.zeros((2, 2)), np.array([7.0, np.nan]), periods)
-    np.testing.assert_allclose(locked.wrapped(np.array([7.0, 7.0])), [7, 7 - 2 * np.pi])
+    np.testing.assert_allclose(locked.principal(np.array([7.0, 7.0])), [7, 7 - 2 * np.pi])
 
 
 def test_the_first_try_is_at_q0_within_the_limits_or_anywhere_and_at_what_is_locked():

@@ -1,0 +1,188 @@
+"""Bound of the pose difference of two arms that have the same joints, over all coordinates.
+
+    f = e^{A_1 x_1} ... e^{A_n x_n} M,   f' = E_1 e^{A_1 x_1} E_1^-1 ... E_n e^{A_n x_n} E_n^-1 E_n+1 M
+
+where E_i moves axis i of one arm to that of the other, and E_n+1 M is its home pose. With
+g_i = E_i^-1 E_i+1 (E_0 = 1) in place of 1, one after the other from the tip on, what stands before
+is a rigid motion and what stands behind moves the tip to a point no further from the point o_i+1 of
+axis i + 1 than all lengths between the axes' points, one after the other:
+
+    |p' - p| <= sum |g_i o_i+1 - o_i+1| + 2 sin(θ_i / 2) l_i+1,   θ <= sum θ_i
+
+with θ_i the angle of g_i and l_i that length. A turn of E_i about axis i and a slide along it change
+nothing in f'; they are chosen to make the sums small, by reweighted least squares.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....groups import se3, so3
+from ....groups.arrays import ROUNDOFF, Array
+from ....model.chain_data import ChainData
+from ....model.sampling import sampling_range
+
+Marks = NDArray[np.bool_]
+
+_REWEIGHTED = 6  # rounds after which the sums hardly become less
+
+
+class PoseBound(NamedTuple):
+    """Bounds of the distance of two arms' tips, m, and of the angle between them, rad."""
+
+    position: float
+    rotation: float
+
+
+class _Links(NamedTuple):
+    """Motions E (n + 2, 4, 4) of base, axes and tool, points o (n + 2, 3) of the given ones, lever
+    arms (n + 1,) behind each but the base, and twists (n, 6, 4) that are free of each axis.
+    """
+
+    E: Array
+    o: Array
+    lever: Array
+    free: Array
+
+
+def pose_bound(given: ChainData, other: ChainData) -> PoseBound:
+    """Bound of the pose difference of two chains of the same kinds of joints and the same coupling,
+    for every x of joints that turn, and within the ranges of joints that slide.
+    """
+    links = _links(given, other)
+    n = len(links.E) - 2
+    rounding = 16 * ROUNDOFF * (n + 2)
+    size = max(given.reach, float(links.lever.max()), float(np.abs(links.o).max()))
+    position, _ = _sums(links, _chosen(links, links.lever, 1.0))
+    _, rotation = _sums(links, _chosen(links, np.ones(n + 1), 0.0))
+    return PoseBound(position + rounding * size, rotation + rounding)
+
+
+def _links(given: ChainData, other: ChainData) -> _Links:
+    n = len(given.kinds)
+    slides = np.array([kind == "prismatic" for kind in given.kinds], bool)
+    w = np.where(slides[:, None], given.screws[:, 3:], given.screws[:, :3])
+    u = np.where(slides[:, None], other.screws[:, 3:], other.screws[:, :3])
+    feet = np.cross(given.screws[:, :3], given.screws[:, 3:])
+    tip = given.home[:3, 3]
+    o = _shortest_way(w, feet, slides, tip)
+    E = np.zeros((n + 2, 4, 4))
+    E[:] = np.eye(4)
+    E[1:-1, :3, :3] = _least_turn(w, u)
+    there = np.cross(other.screws[:, :3], other.screws[:, 3:])
+    along = ((o[1:-1] - there) * u).sum(axis=1, keepdims=True)
+    ends = np.where(slides[:, None], o[1:-1], there + along * u)
+    E[1:-1, :3, 3] = ends - (E[1:-1, :3, :3] @ o[1:-1, :, None])[..., 0]
+    E[-1] = other.home @ se3.inverse(given.home)
+    lengths = np.linalg.norm(np.diff(o[1:], axis=0), axis=1) + _travel(given)
+    lever = np.append(np.cumsum(lengths[::-1])[::-1], 0.0)
+    return _Links(E, o, lever, _free_twists(w, o[1:-1], slides))
+
+
+def _travel(chain: ChainData) -> Array:
+    """Largest distance (n,) that each joint slides within the ranges of the coordinates."""
+    low, high = sampling_range(chain)
+    C = chain.coupling
+    middle = np.abs(C @ (low / 2 + high / 2) + chain.offset)
+    return np.abs(chain.local.slides) * (middle + np.abs(C) @ (high / 2 - low / 2))
+
+
+def _shortest_way(w: Array, feet: Array, slides: Marks, tip: Array) -> Array:
+    """Points (n + 2, 3): the base's, of each axis, and the tip, on a short way through all axes; a
+    joint that slides has its point anywhere.
+    """
+    o = np.concatenate([feet[:1], feet, tip[None]])
+    n = len(w)
+    across = np.eye(3) - w[:, :, None] * w[:, None]
+    across[slides] = 0
+    # Least squares of the lengths: a chain of springs, each end kept on its axis.
+    springs = np.zeros((n, 3, n, 3))
+    right = np.zeros((n, 3))
+    stiff = 1e6
+    for i in range(n):
+        springs[i, :, i] += stiff * across[i]
+        right[i] += stiff * across[i] @ feet[i]
+        for j in (i - 1, i + 1):
+            if 0 <= j < n:
+                springs[i, :, i] += np.eye(3)
+                springs[i, :, j] -= np.eye(3)
+            elif j == n:
+                springs[i, :, i] += np.eye(3)
+                right[i] += tip
+    found = np.linalg.solve(springs.reshape(3 * n, 3 * n), right.ravel()).reshape(n, 3)
+    along = ((found - feet) * w).sum(axis=1, keepdims=True)
+    o[1:-1] = np.where(slides[:, None], found, feet + along * w)
+    o[0] = o[1]
+    return o
+
+
+def _least_turn(w: Array, u: Array) -> Array:
+    """Rotations (n, 3, 3) by the least angle from unit directions w to u."""
+    c = np.cross(w, u)
+    sine = np.linalg.norm(c, axis=1, keepdims=True)
+    cosine = (w * u).sum(axis=1, keepdims=True)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        vector = np.where(sine > 0, c / sine, 0.0) * np.arctan2(sine, cosine)
+    return so3.exp(vector)
+
+
+def _free_twists(w: Array, o: Array, slides: Marks) -> Array:
+    """Twists (n, 6, 4) that change nothing of an axis: a turn and a slide, and any shift of a joint
+    that slides; 0 where there are fewer.
+    """
+    free = np.zeros((len(w), 6, 4))
+    free[:, :3, 0] = w
+    free[:, 3:, 0] = np.cross(o, w)
+    free[:, 3:, 1] = w
+    free[slides, 3:, 1:] = np.eye(3)
+    return free
+
+
+def _chosen(links: _Links, levers: Array, of_shift: float) -> Array:
+    """Motions E with the turns and slides that make the sum of |shift| and angle times lever small."""
+    n = len(links.E) - 2
+    eta = se3.log(links.E)
+    rows = np.zeros((n + 1, 2, 3, n, 4))
+    right = np.zeros((n + 1, 2, 3))
+    for i in range(n + 1):
+        point = links.o[i + 1]
+        right[i] = _at(eta[i + 1] - eta[i], point)
+        if i < n:
+            rows[i, :, :, i] += _at(links.free[i], point)
+        if i > 0:
+            rows[i, :, :, i - 1] -= _at(links.free[i - 1], point)
+    scale = np.stack([levers, np.full(n + 1, of_shift)], axis=1)
+    weight = np.ones((n + 1, 2))
+    x = np.zeros(4 * n)
+    for _ in range(_REWEIGHTED):
+        W = (scale * weight)[:, :, None]
+        A = (W[..., None, None] * rows).reshape(-1, 4 * n)
+        x, *_ = np.linalg.lstsq(A, -(W * right).ravel(), rcond=1e-12)
+        left = right + (rows.reshape(-1, 4 * n) @ x).reshape(right.shape)
+        size = scale * np.linalg.norm(left, axis=2)
+        if not size.any():
+            break
+        weight = 1 / np.sqrt(size + 1e-3 * size.max())
+    E = links.E.copy()
+    # E_i e^{a A_i}: the turn comes first, so that it is about the given axis.
+    E[1:-1] = E[1:-1] @ se3.exp((links.free @ x.reshape(n, 4, 1))[..., 0])
+    return E
+
+
+def _at(twist: Array, point: Array) -> Array:
+    """Turn and velocity (2, 3, ...) of a twist (6, ...) at a point."""
+    w = twist[:3]
+    v = twist[3:] + np.cross(w, point, axisa=0, axisc=0)
+    return np.stack([w, v])
+
+
+def _sums(links: _Links, E: Array) -> tuple[float, float]:
+    g = se3.inverse(E[:-1]) @ E[1:]
+    angle = np.linalg.norm(so3.log(g[:, :3, :3]), axis=1)
+    o = links.o[1:]
+    shift = np.linalg.norm((g[:, :3, :3] @ o[..., None])[..., 0] + g[:, :3, 3] - o, axis=1)
+    position = (shift + 2 * np.sin(angle / 2) * links.lever).sum()
+    return float(position), float(angle.sum())

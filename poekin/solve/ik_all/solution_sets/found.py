@@ -1,0 +1,127 @@
+"""Solutions that were found for many targets, and how often."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ....groups.arrays import Array
+from ...ragged import Ragged
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Solutions found for N targets, limits apart, target after target.
+
+    Attributes: q, the solutions of each target (S, m); hits (S,), how often each was found; ends
+    (N,), how many tries ended at any of them; restarts (N,), 0 where the given starts were enough;
+    full (N,), whether there was no room for more; singular (N,), whether any of them is singular;
+    self_motion, by number of the target the names of the coordinates that move along a continuum of
+    solutions, of which one solution is listed.
+    """
+
+    q: Ragged
+    hits: Array
+    ends: np.ndarray
+    restarts: np.ndarray
+    full: np.ndarray
+    singular: np.ndarray
+    self_motion: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.q)
+
+    def least_hits(self) -> Array:
+        """Hits (N,) of the solution of each target that was found least often; 0 without any."""
+        return reduce_parts(np.minimum, self.hits, self.q, 0.0)
+
+    def kept(self, rows: np.ndarray) -> Found:
+        """Without the solutions whose entry in `rows` (S,) is False."""
+        counts = np.bincount(self.q.owner[rows], minlength=len(self))
+        return replace(self, q=Ragged(self.q.rows[rows], counts), hits=self.hits[rows])
+
+    def placed(self, numbers: np.ndarray, count: int) -> Found:
+        """The solutions as those of `count` targets, of which these have the `numbers` (N,), in
+        order; the others have none.
+        """
+        counts = _scattered(self.q.counts, numbers, count)
+        return Found(
+            q=Ragged(self.q.rows, counts),
+            hits=self.hits,
+            ends=_scattered(self.ends, numbers, count),
+            restarts=_scattered(self.restarts, numbers, count),
+            full=_scattered(self.full, numbers, count),
+            singular=_scattered(self.singular, numbers, count),
+            self_motion={int(numbers[k]): names for k, names in self.self_motion.items()},
+        )
+
+
+def joined(parts: Sequence[Found], dof: int) -> Found:
+    """Solutions of the targets of all parts, one part after the other."""
+    parts = [_nothing(dof), *parts]
+    before = np.cumsum([0, *map(len, parts)])
+    counts = np.concatenate([part.q.counts for part in parts])
+    return Found(
+        q=Ragged(np.concatenate([part.q.rows for part in parts]), counts),
+        hits=np.concatenate([part.hits for part in parts]),
+        ends=np.concatenate([part.ends for part in parts]),
+        restarts=np.concatenate([part.restarts for part in parts]),
+        full=np.concatenate([part.full for part in parts]),
+        singular=np.concatenate([part.singular for part in parts]),
+        self_motion={
+            int(k + start): names
+            for start, part in zip(before, parts, strict=False)
+            for k, names in part.self_motion.items()
+        },
+    )
+
+
+def replaced(found: Found, numbers: np.ndarray, others: Found) -> Found:
+    """`found` with `others` in the place of the targets of these numbers, in order."""
+    if not len(numbers):
+        return found
+    kept = ~np.isin(np.arange(len(found)), numbers)
+    rest = found.kept(kept[found.q.owner])
+    new = others.placed(numbers, len(found))
+    owner = np.concatenate([rest.q.owner, new.q.owner])
+    order = np.argsort(owner, kind="stable")
+    rows = np.concatenate([rest.q.rows, new.q.rows])[order]
+    return Found(
+        q=Ragged(rows, rest.q.counts + new.q.counts),
+        hits=np.concatenate([rest.hits, new.hits])[order],
+        ends=np.where(kept, found.ends, new.ends),
+        restarts=np.where(kept, found.restarts, new.restarts),
+        full=np.where(kept, found.full, new.full),
+        singular=np.where(kept, found.singular, new.singular),
+        self_motion={k: names for k, names in found.self_motion.items() if kept[k]}
+        | dict(new.self_motion),
+    )
+
+
+def reduce_parts(
+    function: np.ufunc,
+    values: Array,
+    parts: Ragged,
+    empty: float,
+) -> Array:
+    """function.reduce of the values (S, ...) of each part, along them; `empty` where it has none."""
+    whole = np.full((len(parts), *values.shape[1:]), empty)
+    some = np.flatnonzero(parts.counts)
+    if len(some):
+        whole[some] = function.reduceat(values, parts.ends[some], axis=0)
+    return whole
+
+
+def _scattered(values: np.ndarray, numbers: np.ndarray, count: int) -> np.ndarray:
+    whole = np.zeros(count, values.dtype)
+    whole[numbers] = values
+    return whole
+
+
+def _nothing(dof: int) -> Found:
+    """No solutions of no targets."""
+    none = np.zeros(0, int)
+    no = np.zeros(0, bool)
+    return Found(Ragged(np.empty((0, dof)), none), np.empty(0), none, none, no, no)

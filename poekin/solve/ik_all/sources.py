@@ -1,0 +1,135 @@
+"""Sources of solutions: the closed form where an arm has one, else elimination, else a search."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from ...errors import InputError
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ..lock import free_chain
+from ..ragged import Ragged
+from .closed_form import ClosedForm, closed_form
+from .elimination import Elimination, elimination
+from .ik_all_search import Rule, SearchedArm, search
+from .solution_sets.evidence import SolverUsed
+from .solution_sets.found import Found, replaced
+
+Method = Literal["auto", "closed", "elimination", "search"]
+Solver = ClosedForm | Elimination
+
+_closed_form = lru_cache(maxsize=256)(closed_form)
+_elimination = lru_cache(maxsize=256)(elimination)
+
+
+class Solvers(NamedTuple):
+    """Solvers of the arms that locked values leave, and which of them serves each target (N,)."""
+
+    solvers: Sequence[Solver]
+    which: np.ndarray
+
+    def used(self) -> SolverUsed:
+        """The solver whose arm is the farthest from the given one."""
+        far = max(self.solvers, key=lambda one: max(one.position_bound, one.rotation_bound))
+        exact = far.position_bound == 0 == far.rotation_bound
+        return SolverUsed(far.method, far.said(), exact)
+
+
+def solvers_for(
+    chain: Chain,
+    values: Array,
+    free: np.ndarray,
+    method: Method,
+) -> Solvers | None:
+    """Solvers for targets whose locked coordinates have `values` (N, m), or None for the search.
+    Raises: InputError.
+    """
+    if method == "search":
+        return None
+    count = len(values)
+    if free.all():
+        solver = _solver(chain, method)
+        return None if solver is None else Solvers([solver], np.zeros(count, int))
+    rows, which = np.unique(values[:, ~free], axis=0, return_inverse=True)
+    solvers: list[Solver] = []
+    for row in rows:
+        locked = np.full(chain.dof, np.nan)
+        locked[~free] = row
+        solver = _solver(free_chain(chain, locked), method)
+        if solver is None:
+            return None
+        solvers.append(solver)
+    return Solvers(solvers, which.reshape(count)) if solvers else None
+
+
+def _solver(chain: Chain, method: Method) -> Solver | None:
+    """The closed form or elimination to use, or None for the search."""
+    found: Solver | None = None
+    try:
+        if method != "elimination":
+            found = _closed_form(chain)
+        if found is None and method != "closed":
+            found = _elimination(chain)
+    except InputError:  # of joints that are helical or coupled, or that elimination does not take
+        if method != "auto":
+            raise
+    if found is None and method == "closed":
+        raise InputError(
+            f"ik_all: {chain!r} has no closed form (no three neighbouring axes meet or are parallel, of five joints "
+            "no two); method='elimination' or 'search' finds the solutions"
+        )
+    if found is None and method == "elimination":
+        raise InputError(
+            f"ik_all: {chain!r} is not solved by elimination (it takes six revolute joints whose loops "
+            "do not all degenerate); method='search' finds the solutions"
+        )
+    return found
+
+
+def find(
+    arm: SearchedArm,
+    T: Array,
+    values: Array,
+    solvers: Solvers | None,
+    rule: Rule,
+) -> Found:
+    """Solutions of targets (N, 4, 4), by the solvers where there are any, else by search."""
+    m = arm.fast.dof
+    if solvers is None:
+        none = Ragged(np.empty((0, m)), np.zeros(len(T), int))
+        return search(arm, T, values, none, rule)
+    starts, unsure = starts_of(solvers, T, values, arm.free)
+    these_alone = Rule(1, 0, rule.iterations)
+    found = search(arm, T, values, starts, these_alone)
+    # where solutions become one or infinitely many, a closed form may lose them, and elimination is not sure
+    unsure = np.flatnonzero(found.singular | unsure)
+    if not len(unsure):
+        return found
+    again = search(arm, T[unsure], values[unsure], starts.chosen(unsure), rule)
+    return replaced(found, unsure, again)
+
+
+def starts_of(
+    solvers: Solvers,
+    T: Array,
+    values: Array,
+    free: np.ndarray,
+) -> tuple[Ragged, np.ndarray]:
+    """The solvers' solutions of each target, and where there may be more of them (N,)."""
+    parts = [np.empty((0, int(free.sum())))]
+    owners = [np.empty(0, int)]
+    counts = np.zeros(len(T), int)
+    unsure = np.zeros(len(T), bool)
+    for k, solver in enumerate(solvers.solvers):
+        own = np.flatnonzero(solvers.which == k)
+        q, counts[own], unsure[own] = solver.starts(T[own])
+        parts.append(q)
+        owners.append(np.repeat(own, counts[own]))
+    in_order = np.argsort(np.concatenate(owners), kind="stable")
+    rows = np.repeat(values, counts, axis=0)
+    rows[:, free] = np.concatenate(parts)[in_order]
+    return Ragged(rows, counts), unsure

@@ -1,0 +1,170 @@
+"""Families of arms whose inverse kinematics has a closed form: three axes that meet or are parallel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Literal
+
+import numpy as np
+
+from ...groups.arrays import Array
+from ...model.chain_data import ChainData
+
+FamilyKind = Literal["meeting", "parallel"]
+
+MOST_JOINTS = 6
+"""Joints up to which an arm has finitely many solutions for a pose."""
+
+_SLANT = 1e-3  # sine below which neighbouring axes turn as one joint, or as parallel ones
+_SINGULAR = 1e-5  # rad, and of the reach: four axes that meet or are parallel within this
+
+EXACT = 1e-12
+"""Angle, rad, and part of the reach within which axes are parallel, or meet, to rounding."""
+
+
+@dataclass(frozen=True)
+class Family:
+    """Three consecutive revolute joints whose axes meet in a point, or are parallel.
+
+    Attributes: kind; first, number of the first of the three joints, from 0; reversed, whether the
+    arm is solved from its tip: the three stand nearer to the base than a closed form needs them
+    (meeting), or nearer to the tip (parallel).
+    """
+
+    kind: FamilyKind
+    first: int
+    reversed: bool
+
+    @property
+    def joints(self) -> tuple[int, int, int]:
+        """Numbers of the three joints, from 0."""
+        return (self.first, self.first + 1, self.first + 2)
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """Family that an arm nearly belongs to, and by how much it misses.
+
+    Attributes: family; angle, the largest between two of the three axes, rad (0 for axes that shall
+    meet); distance, the largest of an axis from the point nearest to all three, m (0 for axes that
+    shall be parallel); exact, whether nothing but rounding is missed.
+    """
+
+    family: Family
+    angle: float
+    distance: float
+    exact: bool
+
+
+def family_of(chain: ChainData, tol: float) -> Family | None:
+    """The family of an arm of up to six joints whose axes miss it by at most `tol`, rad and m.
+
+    Exact families come first, then a spherical wrist, a spherical shoulder, parallel axes, and
+    three axes in the middle that meet. None where no three axes fit.
+    """
+    found = misfits(chain, tol, tol)
+    if not found:
+        return None
+    return found[0].family
+
+
+def misfits(chain: ChainData, angle: float, distance: float) -> list[Misfit]:
+    """Families that an arm misses by at most an angle, rad, and a distance, m; the best first.
+
+    Four axes that meet in one point, or are parallel, make none.
+    """
+    every = all_misfits(chain)
+    n = len(chain.kinds)
+    near = [
+        misfit
+        for misfit in every
+        if misfit.angle <= angle
+        and misfit.distance <= distance
+        and not _singular(misfit, every, chain.reach)
+    ]
+    return sorted(near, key=lambda misfit: (not misfit.exact, _rank(misfit.family, n)))
+
+
+def all_misfits(chain: ChainData) -> list[Misfit]:
+    """Families of any three consecutive revolute joints of an arm of up to six, near or not."""
+    n = len(chain.kinds)
+    if n > MOST_JOINTS:
+        return []
+    return [
+        misfit
+        for first in range(n - 2)
+        if chain.kinds[first : first + 3] == ("revolute",) * 3
+        for misfit in _misfits_at(chain, first)
+    ]
+
+
+def _misfits_at(chain: ChainData, first: int) -> Iterator[Misfit]:
+    """Families of the three joints from `first` on: meeting and parallel axes."""
+    three = chain.screws[first : first + 3]
+    last = len(chain.kinds) - 3
+    w = three[:, :3]
+    angle = max(_angle(a, b) for a, b in combinations(w, 2))
+    neighbours = min(_sine(w[0], w[1]), _sine(w[1], w[2]))
+    if neighbours > _SLANT:
+        point = meeting_point(three)
+        off = max(_distance(S, point) for S in three)
+        family = Family("meeting", first, first < last - first)
+        yield Misfit(family, 0.0, off, off <= EXACT * chain.reach)
+    apart = min(_distance(three[0], _foot(three[1])), _distance(three[2], _foot(three[1])))
+    if apart > _SLANT * chain.reach:
+        family = Family("parallel", first, first > last - first)
+        yield Misfit(family, angle, 0.0, angle <= EXACT)
+
+
+def _singular(misfit: Misfit, every: list[Misfit], reach: float) -> bool:
+    """Whether four axes meet in one point or are parallel: the arm is singular at every q."""
+    family = misfit.family
+    four = [
+        other
+        for other in every
+        if other.family.kind == family.kind and abs(other.family.first - family.first) <= 1
+    ]
+    close = [other.angle + other.distance / reach <= _SINGULAR for other in four]
+    return misfit.angle + misfit.distance / reach <= _SINGULAR and sum(close) > 1
+
+
+def _rank(family: Family, n: int) -> int:
+    """Order of families: what is cheaper to solve has less."""
+    outer = family.first in (0, n - 3)
+    if family.kind == "meeting" and outer:
+        return int(family.reversed)
+    if family.kind == "parallel":
+        return 2 + int(outer) * 2 + int(family.reversed)
+    return 6 + int(family.reversed)
+
+
+def meeting_point(screws: Array) -> Array:
+    """The point (3,) that is nearest to revolute axes (k, 6), in least squares."""
+    w = screws[:, :3]
+    across = np.eye(3) - w[:, :, None] * w[:, None]
+    feet = np.cross(w, screws[:, 3:])
+    start = feet.mean(axis=0)
+    # Axes almost parallel meet far away: what they leave free stays near.
+    right = (across @ (feet - start)[..., None]).ravel()
+    moved, *_ = np.linalg.lstsq(across.reshape(-1, 3), right, rcond=1e-3)
+    return start + moved
+
+
+def _foot(S: Array) -> Array:
+    return np.cross(S[:3], S[3:])
+
+
+def _distance(S: Array, point: Array) -> float:
+    """Distance of a point from a revolute axis."""
+    return float(np.linalg.norm(np.cross(S[:3], point) + S[3:]))
+
+
+def _sine(w: Array, u: Array) -> float:
+    return float(np.linalg.norm(np.cross(w, u)))
+
+
+def _angle(w: Array, u: Array) -> float:
+    """Angle between two lines whatever their directions, 0 to π/2 rad."""
+    return float(np.arctan2(_sine(w, u), abs(float(w @ u))))

@@ -1,0 +1,140 @@
+"""Redundant arms: the coordinate that is given values, its values, and the curves of self-motion."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...analysis.axes import axes
+from ...errors import InputError, UnknownName, join_names, quote, suggest
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.sampling import sampling_range
+from ..joint_units import bounds, period, periods
+from ..lock import free_chain
+
+N_SWIVEL = 64
+"""Values of the redundant coordinate where only its name is given."""
+
+_DRAWS = 64  # configurations at which it is seen which coordinate moves most
+_CONTINUES = 0.5  # largest error of the step that two tangents foretell, of the step itself
+
+
+def redundant_coordinate(chain: Chain, values: Array, asked: str | None) -> int:
+    """Number of the coordinate of an arm to be given values; `values` (m,) are those of what is
+    locked, NaN of the seven coordinates that may move.
+
+    That which is `asked`, else joint 3 of an arm with a spherical shoulder and a spherical wrist
+    (S-R-S), where it gives the arm angle, else the last joint without which the arm has three axes
+    that meet in a point or are parallel, and so a closed form (Pieper), else the coordinate that
+    moves most along self-motions. Raises: InputError, UnknownName.
+    """
+    names = chain.q_names
+    if asked is not None and asked not in names:
+        raise UnknownName(f"redundant: no coordinate {quote(asked)}; {suggest(str(asked), names)}")
+    free = np.isnan(values)
+    if free.sum() != 7:
+        raise InputError(
+            f"n_swivel: expected an arm with seven coordinates that may move, got {free.sum()} "
+            f"({join_names(np.array(names)[free])}); `lock` keeps others at given values"
+        )
+    if asked is not None:
+        if not free[names.index(asked)]:
+            raise InputError(
+                f"redundant: expected a coordinate that is free, {quote(asked)} is locked"
+            )
+        return names.index(asked)
+    arm = free_chain(chain, values)
+    best = _by_shape(arm)
+    if best is None:
+        best = _most_moving(arm)
+    return int(np.flatnonzero(free)[best])
+
+
+def _by_shape(arm: Chain) -> int | None:
+    if arm.nontrivial_coupling is not None:
+        return None
+    if axes(arm).has("S-R-S"):
+        return 2
+    middle = np.mean(sampling_range(arm), axis=0)
+    for k in reversed(range(arm.dof)):
+        only = np.where(np.arange(arm.dof) == k, middle, np.nan)
+        if axes(free_chain(arm, only)).has("Pieper"):
+            return k
+    return None
+
+
+def _most_moving(arm: Chain) -> int:
+    J = arm.jacobian(arm.random(0, _DRAWS), frame="hybrid")
+    return int(np.argmax(np.median(np.abs(_null_vectors(J)), axis=0)))
+
+
+def _null_vectors(J: Array) -> Array:
+    """Unit vectors (N, m) that Jacobians (N, 6, m) take nearest to zero."""
+    return np.linalg.svd(J)[2][:, -1]
+
+
+def sample_values(chain: Chain, k: int, count: int, limits: bool) -> Array:
+    """Values (count,) of coordinate k, evenly over its limits, or over a period where these are
+    wider, its end left out.
+    """
+    low, high = bounds(chain, limits)[k]
+    turn = period(chain, k)
+    if turn and high - low >= turn:
+        start = np.clip(-0.5 * turn, low, high - turn)
+        return start + turn / count * np.arange(count)
+    if not np.isfinite(high - low):
+        low, high = (ends[k] for ends in sampling_range(chain))
+    if count == 1:
+        return np.array([0.5 * (low + high)])
+    return np.linspace(low, high, count)
+
+
+def curves(chain: Chain, q: Array, sample: np.ndarray, redundant: str) -> list[Array]:
+    """Solutions (s, m) of one target as curves of self-motion (l, m) along the samples (s,) of the
+    redundant coordinate, the longest first.
+    """
+    k = chain.q_names.index(redundant)
+    turn = periods(chain)
+    v = _null_vectors(chain.jacobian(q, frame="hybrid"))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        tangent = v / v[:, k : k + 1]  # dq / dq_k
+    following = np.full(len(q), -1)
+    for number in np.unique(sample):
+        here = np.flatnonzero(sample == number)
+        there = np.flatnonzero(sample == number + 1)
+        if len(there):
+            i, j = _links(q[here], q[there], tangent[here], tangent[there], k, turn)
+            following[here[i]] = there[j]
+    first = np.setdiff1d(np.arange(len(q)), following)
+    found = [q[_chained(int(row), following)] for row in first]
+    return sorted(found, key=len, reverse=True)
+
+
+def _chained(row: int, following: np.ndarray) -> list[int]:
+    rows = []
+    while row >= 0:
+        rows.append(row)
+        row = int(following[row])
+    return rows
+
+
+def _links(
+    a: Array,
+    b: Array,
+    tangent_a: Array,
+    tangent_b: Array,
+    k: int,
+    turn: Array,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers of solutions of a (s, m), and of those of b (t, m) that continue them: each other's
+    nearest to the step which the trapezoidal rule foretells, q_b - q_a = h (q_a' + q_b') / 2.
+    """
+    step = b[None] - a[:, None]
+    step = step - turn * np.round(step / np.where(turn > 0, turn, np.inf))
+    expected = 0.5 * step[..., k : k + 1] * (tangent_a[:, None] + tangent_b[None])
+    off = np.abs(step - expected).max(axis=-1)
+    off = np.where(off <= _CONTINUES * np.abs(step).max(axis=-1), off, np.inf)
+    nearest = off.argmin(axis=1)
+    i = np.arange(len(a))
+    mutual = (off.argmin(axis=0)[nearest] == i) & np.isfinite(off[i, nearest])
+    return i[mutual], nearest[mutual]

@@ -1,0 +1,118 @@
+"""Coordinates that keep a value: read as a user gives them, and the arm that is left without them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..checks import is_real
+from ..errors import InputError, ShapeError, UnknownName, quote, safe_repr, suggest
+from ..groups import se3
+from ..groups.arrays import Array, numbers
+from ..model.chain import Chain
+from .joint_units import JointUnits
+
+
+def items(lock: Any) -> Any:
+    """Names and values of a user's dict, to be part of a key. Raises: InputError."""
+    if lock is not None and not isinstance(lock, Mapping):
+        raise InputError(f"lock: expected a dict of names and values, got {safe_repr(lock)}")
+    return None if lock is None else tuple(lock.items())
+
+
+def locked_values(units: JointUnits, lock: Any, limits: Array) -> Array:
+    """Values (m,) of what is locked, in joint units, NaN for the others; lock are pairs of name and
+    value, `limits` (m, 2) those of the joint units. Raises: InputError, UnknownName.
+    """
+    values = np.full(units.fast.dof, np.nan)
+    for name, value in lock or ():
+        k, scale = _place(units, name)
+        real = is_real(value) and np.isfinite(value)
+        if not real or not limits[k, 0] <= scale * value <= limits[k, 1]:
+            raise _not_within(name, limits[k] / scale, value)
+        values[k] = scale * float(value)
+    return values
+
+
+def locked_rows(
+    units: JointUnits,
+    lock: Any,
+    limits: Array,
+    batch: tuple[int, ...],
+) -> Array:
+    """`locked_values` (N, m) for each target of a batch, N of them: a value may be an array.
+
+    Raises: InputError, ShapeError, UnknownName.
+    """
+    count = int(np.prod(batch))
+    rows = np.full((count, units.fast.dof), np.nan)
+    for name, value in lock or ():
+        k, scale = _place(units, name)
+        given = numbers(value, f"lock: {quote(name)}")
+        inside = (scale * given >= limits[k, 0]) & (scale * given <= limits[k, 1])
+        inside &= np.isfinite(given)
+        if isinstance(value, bool) or not inside.all():
+            first = value if given.ndim == 0 else float(given[~inside][0])
+            raise _not_within(name, limits[k] / scale, first)
+        try:
+            rows[:, k] = scale * np.broadcast_to(given, batch).reshape(count)
+        except ValueError as error:
+            raise ShapeError(
+                f"lock: {quote(name)}: shape {given.shape} does not fit the targets' {batch}"
+            ) from error
+    return rows
+
+
+def free_chain(chain: Chain, values: Array) -> Chain:
+    """The arm of the coordinates that are not locked, f'(q_free) = f(q): joints that only follow
+    locked ones become links at their `values` (m,), NaN for what is free.
+
+    A_j' = Ad(P) A_j and M' = P M, P the product of e^{A_k x_k} of the locked joints k before j, or
+    of all; what a locked coordinate adds to a joint that moves is part of its offset.
+    """
+    free = np.isnan(values)
+    coupling = chain.nontrivial_coupling
+    C = chain.coupling
+    moves = (C[:, free] != 0).any(axis=1)
+    x = C[:, ~free] @ values[~free] + chain.offset
+    screws = np.empty_like(chain.screws)
+    P = np.eye(4)
+    for i, A in enumerate(chain.screws):
+        screws[i] = se3.adjoint(P) @ A
+        if not moves[i]:
+            P = P @ se3.exp(A * x[i])
+    return chain.replace(
+        screws=screws[moves],
+        home=P @ chain.home,
+        pitches=chain.pitches[moves],
+        coupling=None if coupling is None else C[np.ix_(moves, free)],
+        offset=x[moves],
+        joint_names=_chosen(chain.joint_names, moves),
+        q_names=_chosen(chain.q_names, free),
+        limits=chain.limits[free],
+        velocity_limits=chain.velocity_limits[free],
+        joint_limits=chain.joint_limits[moves],
+        joint_velocity_limits=chain.joint_velocity_limits[moves],
+    )
+
+
+def _chosen(names: tuple[str, ...], which: np.ndarray) -> tuple[str, ...]:
+    return tuple(name for name, chosen in zip(names, which, strict=True) if chosen)
+
+
+def _place(units: JointUnits, name: Any) -> tuple[int, float]:
+    """Number of a coordinate and its joint units per unit."""
+    names = units.fast.q_names
+    if name not in names:
+        raise UnknownName(f"lock: no coordinate {quote(name)}; {suggest(str(name), names)}")
+    k = names.index(name)
+    return k, float(units.of(np.ones(len(names)))[k])
+
+
+def _not_within(name: str, limits: Array, value: Any) -> InputError:
+    within = sorted(limits.tolist())
+    return InputError(
+        f"lock: {quote(name)}: expected a number within {within}, got {safe_repr(value)}"
+    )

@@ -1,0 +1,93 @@
+"""Locked coordinates: values for each target, and the arm that is left."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import InputError, ShapeError, UnknownName
+from poekin.solve.joint_units import bounds, joint_units
+from poekin.solve.lock import free_chain, items, locked_rows, locked_values
+from poekin.testing.strategies import chain_strategies
+
+AXES = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([0, 1, 0], [0.5, 0, 0])]
+# the second coordinate counts the other way, and twice as fast
+UNITS = joint_units(
+    pk.Chain.from_space(
+        AXES,
+        np.eye(4),
+        coupling=[[1, 0], [0, -2.0]],
+        q_names=["a", "b"],
+        limits=[[-2, 4], [-1.5, 1]],
+    ).compile(),
+    locked=True,
+)
+LIMITS = bounds(UNITS.fast.chain, True)
+
+
+def test_values_of_a_batch_are_those_of_each_target_in_joint_units():
+    lock = items({"b": [[0.5, -1.0]]})
+    np.testing.assert_allclose(
+        locked_rows(UNITS, lock, LIMITS, (2, 2)),
+        [[np.nan, -1.0], [np.nan, 2.0], [np.nan, -1.0], [np.nan, 2.0]],
+    )
+    one = locked_values(UNITS, items({"b": 0.5}), LIMITS)
+    np.testing.assert_array_equal(locked_rows(UNITS, items({"b": 0.5}), LIMITS, (3,)), [one] * 3)
+    assert np.isnan(locked_rows(UNITS, None, LIMITS, (3,))).all()
+    assert locked_rows(UNITS, lock, LIMITS, (0, 2)).shape == (0, 2)
+
+
+@pytest.mark.parametrize(("lock", "error", "words"), [
+    ({"c": 1.0}, UnknownName, "lock: no coordinate 'c'; "),
+    ({"b": [0.5, 2.0]}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got 2.0"),
+    ({"b": [0.5, np.nan]}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got nan"),
+    ({"b": True}, InputError, "lock: 'b': expected real numbers, got bool"),
+    ({"b": "1"}, InputError, "lock: 'b': expected "),
+    ({"b": [0.5, 0.1, 0.2]}, ShapeError, "lock: 'b': shape (3,) does not fit the targets' (2,)"),
+])  # fmt: skip
+def test_values_that_do_not_fit_are_refused_in_the_user_s_units(lock: Any, error, words):
+    with pytest.raises(error, match=f"^{re.escape(words)}"):
+        locked_rows(UNITS, items(lock), LIMITS, (2,))
+
+
+def test_what_is_no_dict_is_no_lock():
+    wrong: Any = [("a", 1.0)]
+    with pytest.raises(InputError, match="lock: expected a dict of names and values"):
+        items(wrong)
+
+
+@given(st.data())
+def test_the_arm_that_is_left_moves_as_the_whole_one_with_what_is_locked_at_its_value(data):
+    chain = data.draw(chain_strategies.chains(1, 7).filter(lambda chain: chain.dof > 1))
+    q = data.draw(chain_strategies.coordinates(chain))
+    locked = np.array(data.draw(st.lists(st.booleans(), min_size=chain.dof, max_size=chain.dof)))
+    left = free_chain(chain, np.where(locked, q, np.nan))
+    assert left.q_names == tuple(np.array(chain.q_names)[~locked])
+    np.testing.assert_array_equal(left.limits, chain.limits[~locked])
+    # both are within u (8 (n + 1) + 4 sum |x|) of the reach of the pose (`Chain.fk`), and each screw
+    # of `left` is moved as by `rezeroed`, within u (10 (n + 1) + 4 sum |x|), and moves the tool by it
+    x = np.abs(chain.coupling) @ np.abs(q) + np.abs(chain.offset)
+    n = len(chain.kinds)
+    reach = chain.reach + x.sum()
+    bound = 2.0**-53 * (n + 2) * (30 * (n + 1) + 12 * x.sum()) * reach
+    np.testing.assert_allclose(left.fk(q[~locked]), chain.fk(q), rtol=0, atol=bound)
+
+
+def test_limits_of_joints_stay_theirs_where_a_coordinate_of_a_sum_is_locked():
+    chain = pk.Chain.from_space(
+        AXES,
+        np.eye(4),
+        coupling=[[1.0, 0], [1, 1]],
+        q_names=["a", "b"],
+        joint_limits=[[-1, 1], [-1, 2]],
+    )
+    left = free_chain(chain, np.array([0.5, np.nan]))
+    assert left.joint_names == ("joint2",)
+    np.testing.assert_allclose(left.offset, [0.5])
+    np.testing.assert_allclose(left.joint_limits, [[-1, 2]])
