@@ -42,7 +42,7 @@ DEFAULTS: dict[str, dict[str, object]] = {
     "conform": {"at_most": "good", "seconds": 600.0, "limit": 60.0, "json": False},
     "count": {"json": False},
     "dh": {"convention": "standard", "json": False},
-    "emit": {"frame": "hybrid", "all_links": False, "single": False, "force": False},
+    "emit": {"all_links": False, "inverse": False, "single": False, "force": False},
     "fk": {"json": False},
     "follow": {
         "fastest": False,
@@ -107,7 +107,7 @@ def test_the_numbers_in_the_help_are_those_that_are_taken():
     )
     assert help_of(calibrate, "folds").endswith("; 0: none.")
     assert help_of(jacobian, "frame").endswith("of joint K, counted from 0).")
-    assert help_of(emit, "frame").endswith("of joint K, from 0).")
+    assert help_of(emit, "frame").endswith("of joint K, from 0). Default: hybrid.")
     names = layout("matrix").columns
     assert f"matrix (12 or 16, row by row: {' '.join(names[:5])} ..., m)" in help_of(ik, "format")
     assert (len(layout("12").columns), len(names)) == (12, 16)

@@ -44,7 +44,7 @@ Output = Annotated[
         help="A directory for the files (made where there is none); or a .py for python, a .js or .mjs for javascript.",
     ),
 ]
-Frame = Annotated[str, Option("--frame", help=FRAME_HELP)]
+Frame = Annotated[str | None, Option("--frame", help=f"{FRAME_HELP} Default: hybrid.")]
 Single = Annotated[bool, Option("--float/--double", help="C only: the type of its numbers.")]
 Name = Annotated[
     str | None,
@@ -56,6 +56,13 @@ Name = Annotated[
 AllLinks = Annotated[
     bool,
     Option("--all-links", help="JavaScript only: the poses of all links, no Jacobian."),
+]
+InverseKinematics = Annotated[
+    bool,
+    Option(
+        "--ik",
+        help="C only: all solutions of the inverse kinematics, in place of pose and Jacobian.",
+    ),
 ]
 Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
 Idealise = Annotated[
@@ -70,15 +77,16 @@ def command(
     output: Output,
     tip: Tip = None,
     base: Base = None,
-    frame: Frame = "hybrid",
+    frame: Frame = None,
     all_links: AllLinks = False,
     single: Single = False,
     name: Name = None,
     idealise: Idealise = None,
+    inverse: InverseKinematics = False,
     force: Force = False,
 ) -> None:
-    """Pose and Jacobian of one chain, or poses of all links, as straight-line source text that needs
-    no poekin.
+    """Pose and Jacobian of one chain, poses of all links, or all solutions of the inverse kinematics,
+    as source text that needs no poekin.
     """
     if language not in ENDINGS:
         raise InputError(f"--lang: {alternatives(ENDINGS)} expected, got {quote(language)}")
@@ -87,12 +95,14 @@ def command(
             "--float: expected together with --lang c only; Python computes in the numbers it is given, "
             "JavaScript in double precision"
         )
+    if inverse:
+        _check_inverse(language, {"--frame": frame, "--float": single, "--all-links": all_links})
     robot = model(file)
     origin = _origin(file, robot)
     name = robot.name if name is None else name
     ideal = None
     if all_links:
-        of_chain = {"--tip": tip, "--base": base, "--idealise": idealise}
+        of_chain = {"--tip": tip, "--base": base, "--frame": frame, "--idealise": idealise}
         _check_all_links(language, of_chain)
         texts = {_file_name(name, language): emit.javascript(robot, origin=origin)}
     else:
@@ -101,7 +111,11 @@ def command(
             ideal = chain.idealised(idealise)
             chain = ideal.chain
             origin += f", idealised within {idealise:g} (rad and m)"
-        texts = _texts(chain, language, parse_frame(frame, FRAMES), name, single, origin)
+        if inverse:
+            texts = emit.c_ik(chain, name=name, origin=origin).files
+        else:
+            which = parse_frame("hybrid" if frame is None else frame, FRAMES)
+            texts = _texts(chain, language, which, name, single, origin)
     places, directory = _places(output, language, texts)
     array_files.check_apart(places, model=file)
     _write(places, directory, force)
@@ -136,6 +150,17 @@ def _texts(
 
 def _file_name(name: str, language: str) -> str:
     return f"{identifier(name)}{ENDINGS[language][0]}"
+
+
+def _check_inverse(language: str, others: dict[str, object]) -> None:
+    """Refuses --ik in another language than C, or with an option of pose and Jacobian."""
+    if language != "c":
+        raise InputError(
+            f"--ik: expected together with --lang c only, it is not written in {language} yet"
+        )
+    for option, value in others.items():
+        if value:
+            raise InputError(f"--ik: expected without {option}, which is of pose and Jacobian")
 
 
 def _check_all_links(language: str, of_chain: dict[str, object]) -> None:

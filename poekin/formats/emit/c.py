@@ -122,7 +122,7 @@ def c(
     literal, kind = KINDS[real]
     arm = compile_checked(chain, frame)
     word = identifier(name)
-    functions = [_Function(word, real, literal, task, arm.dof) for task in make_tasks(arm, frame)]
+    functions = [CFunction(word, real, literal, task, arm.dof) for task in make_tasks(arm, frame)]
     head = [
         f"{word}: the kinematics of one serial arm as straight-line C99, in {real}. Generated: change the arm instead.",
         *made_by(origin),
@@ -139,8 +139,8 @@ def c(
     )
 
 
-class _Function:
-    """The C of one task: its angles, its statements, and both together."""
+class CFunction:
+    """The C of one task: its angles, its statements, and both together; `linkage` stands before them."""
 
     def __init__(
         self,
@@ -149,6 +149,7 @@ class _Function:
         literal: WriteNumber,
         task: EmittedFunction,
         dof: int,
+        linkage: str = "",
     ) -> None:
         self.task = task
         self.real = real
@@ -158,9 +159,9 @@ class _Function:
         self.count = len(task.program.angles)
         parameters = "".join(f", {real} *{result}" for result in task.results)
         self.heads = (
-            f"void {self.name}_angles(const {real} *q, {real} *x)",
-            f"void {self.name}_sincos(const {real} *s, const {real} *c, const {real} *q{parameters})",
-            f"void {self.name}(const {real} *q{parameters})",
+            f"{linkage}void {self.name}_angles(const {real} *q, {real} *x)",
+            f"{linkage}void {self.name}_sincos(const {real} *s, const {real} *c, const {real} *q{parameters})",
+            f"{linkage}void {self.name}(const {real} *q{parameters})",
         )
 
     def declared(self) -> str:
@@ -222,7 +223,7 @@ def _ignored(names: list[str]) -> list[str]:
     return [f"    (void){name};" for name in names]
 
 
-_HEADER = """{comment}
+HEADER = """{comment}
 #ifndef {guard}
 #define {guard}
 
@@ -242,8 +243,8 @@ extern "C" {{
 def _header(
     word: str,
     lines: list[str],
-    functions: list[_Function],
+    functions: list[CFunction],
 ) -> str:
     declarations = "\n".join(function.declared() for function in functions)
     guard = f"{word.upper()}_H_INCLUDED"
-    return _HEADER.format(comment=comment(lines), guard=guard, declarations=declarations)
+    return HEADER.format(comment=comment(lines), guard=guard, declarations=declarations)

@@ -116,6 +116,13 @@ def test_all_links_of_a_robot_with_many_leaves_are_one_module(poekin, tmp_path):
     assert out.startswith("link_poses: 98 multiplications, ")
 
 
+def test_all_links_have_no_frame_of_a_jacobian(refused, tmp_path):
+    words = ("emit", "panda", "--lang", "javascript", "--all-links", "--frame", "body")
+    said = refused(*words, "--output", tmp_path / "made")
+    assert "--all-links: expected without --frame, which is of one chain" in said
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_mimic_joint_is_in_the_text(poekin, tmp_path, crane):
     assert (
         poekin("emit", crane, "--tip", "hook", "--lang", "python", "--output", tmp_path / "arm.py")[
@@ -162,6 +169,7 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
             ("--lang", "javascript", "--all-links"),
             "--all-links: expected without --tip, which is of one chain",
         ),
+        (("--lang", "c", "--frame", ""), "--frame: space, body, hybrid, cheapest or the number"),
         (
             ("--lang", "c", "--frame", "world"),
             "--frame: space, body, hybrid, cheapest or the number of a joint",
@@ -220,3 +228,39 @@ def test_a_robot_s_hostile_name_names_no_other_place(poekin, tmp_path):
     assert "'<U+003F><U+003F>/'" in header
     assert "'<U+002A>/b'" in header
     assert "??/" not in header
+
+
+def test_ik_is_three_files_of_all_solutions(poekin, tmp_path):
+    code, _, err = poekin("emit", "puma560", "--ik", "--lang", "c", "--output", tmp_path / "made")
+    assert (code, err) == (0, "")
+    chain = pk.load("puma560").chain()
+    source = emit.c_ik(chain, name="puma560", origin="the robot puma560")
+    written = {
+        path.name: path.read_text(encoding="ascii") for path in (tmp_path / "made").iterdir()
+    }
+    assert written == source.files
+    assert sorted(written) == ["puma560_ik.c", "puma560_ik.h", "puma560_ik_selftest.c"]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (
+            ("--lang", "python"),
+            "--ik: expected together with --lang c only, it is not written in python",
+        ),
+        (("--lang", "javascript"), "it is not written in javascript yet"),
+        (("--lang", "c", "--float"), "--ik: expected without --float"),
+        (("--lang", "c", "--frame", "body"), "--ik: expected without --frame"),
+    ],
+)
+def test_ik_with_what_it_cannot_do_is_refused(options, said, poekin, tmp_path):
+    code, _, err = poekin("emit", "puma560", "--ik", *options, "--output", tmp_path / "made")
+    assert code != 0
+    assert said in " ".join(err.split())
+
+
+def test_ik_of_an_arm_without_a_closed_form_says_why(poekin, tmp_path):
+    code, _, err = poekin(*PANDA, "--ik", "--lang", "c", "--output", tmp_path / "made")
+    assert code != 0
+    assert "expected an arm of one to six joints" in " ".join(err.split())

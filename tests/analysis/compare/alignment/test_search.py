@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 from benchmarks.planted_changes import random_arm
 from poekin.analysis.axis_lines import Tolerances
+from poekin.analysis.compare.alignment import search as module
 from poekin.analysis.compare.alignment.alignment_seeds import rigid_poses
 from poekin.analysis.compare.alignment.alignments import Alignments
 from poekin.analysis.compare.alignment.hypotheses import Hypothesis
@@ -182,3 +186,20 @@ def test_an_arm_of_slides_alone_is_read():
     )
     first, _ = search(chain, chain.rebased(se3.exp([0.1, 0.2, 0.3, 1, 2, 3])), TOL)
     assert not first.implicated.any()
+
+
+def test_another_link_is_tried_in_the_twelve_cheapest_readings_of_several_moved_axes(monkeypatch):
+    tried = []
+    costs = np.random.default_rng(0).permutation(15).tolist()
+    several = [SimpleNamespace(moved=np.array([1, 1]), link=0, cost=cost) for cost in costs]
+    others = [
+        SimpleNamespace(moved=np.array([1, 0]), link=0, cost=-1),
+        SimpleNamespace(moved=np.array([1, 1]), link=2, cost=-2),
+    ]
+    monkeypatch.setattr(module, "make_hypotheses", lambda pair, at: [])
+    monkeypatch.setattr(module, "with_front_link", lambda pair, reading: None)
+    monkeypatch.setattr(module, "with_link", lambda pair, readings: tried.extend(readings) or [])
+    pair: Any = SimpleNamespace(tool_as_it_stands=None)
+    readings: Any = several + others
+    module._other_links(pair, readings)
+    assert [reading.cost for reading in tried] == list(range(12))

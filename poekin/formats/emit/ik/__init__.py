@@ -1,0 +1,1 @@
+"""Inverse kinematics of an arm in closed form as source text."""
