@@ -37,6 +37,7 @@ class ClosedForm:
     """
 
     method: ClassVar[Literal["closed form"]] = "closed form"
+    most: ClassVar[int] = closed_arm.BRANCHES
 
     arm: Array
     dof: int
@@ -54,13 +55,17 @@ class ClosedForm:
         )
 
     def rows(self, T: Array) -> tuple[Array, Array]:
-        """Branches (N, 16, m) of targets (N, 4, 4) and their margins (N, 16), NaN where there are
+        """Branches (N, 8, m) of targets (N, 4, 4) and their margins (N, 8), NaN where there are
         fewer.
 
         A branch with a margin above 0 is a solution; another one is the least-squares answer where
         there is none, or a solution within rounding, which the caller has to try.
         """
         return branch_rows(self.arm, self.dof, T)
+
+    def branches(self, T: Array) -> tuple[Array, Array, np.ndarray]:
+        """`rows`, and where there may be more solutions than these (N,): nowhere."""
+        return *self.rows(T), np.zeros(len(T), bool)
 
     def starts(self, T: Array) -> tuple[Array, np.ndarray, np.ndarray]:
         """Configurations (S, m) for all of the targets (N, 4, 4), one target's after the other's,

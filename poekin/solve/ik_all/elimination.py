@@ -45,6 +45,7 @@ class Elimination:
     """
 
     method: ClassVar[Literal["elimination"]] = "elimination"
+    most: ClassVar[int] = 16
     position_bound: ClassVar[float] = 0.0
     rotation_bound: ClassVar[float] = 0.0
 
@@ -67,6 +68,14 @@ class Elimination:
         taken = (found.margin >= 0.0) & finite
         counts = taken.sum(axis=1)
         return found.q[taken], counts, ~found.sure
+
+    def branches(self, T: Array) -> tuple[Array, Array, np.ndarray]:
+        """Branches (N, 16, 6) of targets (N, 4, 4), their margins (N, 16), NaN where there are fewer,
+        and where there may be more solutions than these (N,).
+        """
+        found = self.rows(T)
+        margins = np.where(found.margin >= 0.0, found.margin, np.nan)
+        return found.q, margins, ~found.sure
 
     def rows(self, T: Array) -> EliminatedRows:
         """Solutions of targets (N, 4, 4), by the first table, and of those that it is not sure of by

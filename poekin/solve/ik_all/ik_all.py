@@ -23,8 +23,10 @@ from ..lock import items, locked_rows
 from ..ragged import Ragged
 from .all_solutions import AllSolutions
 from .ik_all_search import POSE, Rule, SearchedArm, accepted
+from .listed import list_clear
 from .solution_sets.evidence import Evidence, Sampling, missing_probability
-from .solution_sets.found import Found, reduce_parts
+from .solution_sets.found import reduce_parts
+from .solution_sets.listing import Listing, gathered
 from .solution_sets.places import Box, Places, in_order, make_places
 from .sources import Method, Solvers, find, solvers_for
 from .swivel import N_SWIVEL, redundant_coordinate, sample_values
@@ -173,8 +175,8 @@ def ik_all(  # noqa: PLR0913 - options by keyword
 class _Question:
     """Question to an arm: given, the user's chain; units, its joint units; box, where solutions
     are wanted; values (N, m), those of locked coordinates in joint units, `n_swivel` times as many
-    rows as targets; free (m,), what may move; kept, names of what is locked, with the user's values
-    for each target; redundant, the coordinate that is given values, or None.
+    rows as targets; free (m,), what may move; lock, names of what is locked, with the user's values
+    for each target of the batch; redundant, the coordinate that is given values, or None.
     """
 
     given: Chain
@@ -184,19 +186,25 @@ class _Question:
     values: Array
     free: np.ndarray
     lock: tuple[tuple[str, ArrayLike], ...]
+    batch: tuple[int, ...]
     n_swivel: int = 1
     redundant: int | None = None
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether the user's coordinates are those of the solvers, with their limits alone."""
+        return self.units.scale is None and not self.by_joints
 
     @property
     def by_joints(self) -> bool:
         """Whether joints have limits of their own that count."""
         return self.limits and bool(np.isfinite(self.units.fast.chain.joint_limits).any())
 
-    def coordinates(self, places: Places, batch: tuple[int, ...]) -> Places:
+    def coordinates(self, places: Places) -> Places:
         """Places in the user's coordinates, what is locked to the last digit."""
         q = self.units.coordinates(places.q, bounds(self.given, self.limits))
         for name, value in self.lock:
-            values = np.broadcast_to(np.asarray(value, float), batch).ravel()
+            values = np.broadcast_to(np.asarray(value, float), self.batch).ravel()
             q[:, self.given.q_names.index(name)] = values[places.owner // self.n_swivel]
         return places._replace(q=q)
 
@@ -224,7 +232,7 @@ def _question(
     box = Box(within, turn)
     if n_swivel is None:
         _check_free(chain, free)
-        return _Question(fast.chain, units, limits, box, values, free, lock)
+        return _Question(fast.chain, units, limits, box, values, free, lock, batch)
     some = values[0] if len(values) else np.where(free, np.nan, 0.0)
     k = redundant_coordinate(chain, some, asked)
     samples = sample_values(chain, k, n_swivel, limits)
@@ -232,7 +240,7 @@ def _question(
     values = np.repeat(values, n_swivel, axis=0)
     values[:, k] = np.tile(samples, count)
     free[k] = False
-    return _Question(fast.chain, units, limits, box, values, free, lock, n_swivel, k)
+    return _Question(fast.chain, units, limits, box, values, free, lock, batch, n_swivel, k)
 
 
 def _check_free(chain: Chain, free: np.ndarray) -> None:
@@ -258,18 +266,40 @@ def _solved(
     parallel: bool,
 ) -> AllSolutions:
     fast = question.units.fast
-    batch = wanted.shape[:-2]
     rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
     rows = np.repeat(rows, question.n_swivel, axis=0) if question.n_swivel > 1 else rows
     finite = np.asarray(np.isfinite(rows).all(axis=(1, 2)))
     numbers = np.flatnonzero(finite)
-    values = question.values[finite]
-    solvers = solvers_for(fast.chain, values, question.free, method)
+    solvers = solvers_for(fast.chain, question.values[finite], question.free, method)
     arm = SearchedArm(fast, question.box, question.free, parallel)
-    found = find(arm, rows[finite], values, solvers, rule)
+    parts: list[tuple[np.ndarray, Listing]] = []
+    others = solvers
+    if solvers is not None and question.is_plain and not all_revolutions:
+        parts, left = list_clear(arm, rows, question.values, solvers, numbers)
+        numbers = numbers[left]
+        others = solvers.chosen(left)
+    if len(numbers) or not parts:
+        rest = _searched(question, arm, rows, numbers, others, rule, all_revolutions)
+        parts.insert(0, rest)
+    listing = gathered(parts, len(rows))
+    return _result(question, wanted, listing, _evidence(question, listing, finite, solvers))
+
+
+def _searched(
+    question: _Question,
+    arm: SearchedArm,
+    rows: Array,
+    numbers: np.ndarray,
+    solvers: Solvers | None,
+    rule: Rule,
+    all_revolutions: bool,
+) -> tuple[np.ndarray, Listing]:
+    """The listing of the targets of these numbers, among all of them."""
+    found = find(arm, rows[numbers], question.values[numbers], solvers, rule)
     found = found.placed(numbers, len(rows))
-    places = make_places(fast.chain, found.q, question.box, question.by_joints, all_revolutions)
-    places = in_order(question.coordinates(places, batch), joint_ratios(question.given))
+    chain = question.units.fast.chain
+    places = make_places(chain, found.q, question.box, question.by_joints, all_revolutions)
+    places = in_order(question.coordinates(places), joint_ratios(question.given))
     errors = pose_errors(question.given, POSE, places.q, rows[places.owner])
     reached = (errors <= accepted(question.given)).all(axis=1)
     if not reached.all():
@@ -279,36 +309,35 @@ def _solved(
             owner=places.owner[reached],
             number=places.number[reached],
         )
-    evidence = _evidence(question, found, places, finite, solvers)
-    return _result(question, wanted, places, errors, evidence)
+    return np.arange(len(rows)), Listing(places, errors, found.tally())
 
 
 def _evidence(
     question: _Question,
-    found: Found,
-    places: Places,
+    listing: Listing,
     finite: np.ndarray,
     solvers: Solvers | None,
 ) -> Evidence:
     """Evidence on the solutions of each target, its samples taken together."""
     used = None if solvers is None else solvers.used()
-    chance = missing_probability(found, used is not None and used.is_exact)
+    tally = listing.tally
+    chance = missing_probability(tally, used is not None and used.is_exact)
     n = question.n_swivel
     k = question.redundant
     sampling = None
-    self_motion = dict(found.self_motion)
+    self_motion = dict(tally.self_motion)
     if k is not None:
         sampling = Sampling(question.given.q_names[k], n)
         chance = 1.0 - (1.0 - chance).reshape(-1, n).prod(axis=1)
         self_motion = {}
     return Evidence(
         finite=finite[::n],
-        found=found.q.counts.reshape(-1, n).sum(axis=1),
-        within=places.within.reshape(-1, n).sum(axis=1),
-        least_hits=found.least_hits().reshape(-1, n).min(axis=1),
-        ends=found.ends.reshape(-1, n).sum(axis=1),
-        restarts=found.restarts.reshape(-1, n).sum(axis=1),
-        full=np.asarray(found.full.reshape(-1, n).any(axis=1)),
+        found=tally.found.reshape(-1, n).sum(axis=1),
+        within=listing.places.within.reshape(-1, n).sum(axis=1),
+        least_hits=tally.least_hits.reshape(-1, n).min(axis=1),
+        ends=tally.ends.reshape(-1, n).sum(axis=1),
+        restarts=tally.restarts.reshape(-1, n).sum(axis=1),
+        full=np.asarray(tally.full.reshape(-1, n).any(axis=1)),
         p_missing=chance,
         self_motion=self_motion,
         free=int(question.free.sum()),
@@ -320,11 +349,12 @@ def _evidence(
 def _result(
     question: _Question,
     T: Array,
-    places: Places,
-    errors: Array,
+    listing: Listing,
     evidence: Evidence,
 ) -> AllSolutions:
     batch = T.shape[:-2]
+    places = listing.places
+    errors = listing.errors
     counts = np.bincount(places.owner // question.n_swivel, minlength=len(evidence.finite))
     position, rotation = reduce_parts(np.maximum, errors, Ragged(errors, counts), np.nan).T
     complete = evidence.complete.reshape(batch)

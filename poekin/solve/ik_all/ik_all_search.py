@@ -38,7 +38,7 @@ def accepted(chain: Chain) -> float:
 
 
 # m per metre of reach, and rad: where a try ends, some 100 times the rounding of a pose
-_AIM = 1e-13
+AIM = 1e-13
 # solutions of one target that are kept: isolated ones of six revolute joints are at most 16
 _ROOM = 40
 _AT_ONCE = 4096  # targets whose solutions are in memory with all their room
@@ -139,7 +139,7 @@ def _search(
     bounds = np.empty((N, room))
     info = np.empty((N, kernel.INFO))
     limits = np.tile([-np.inf, np.inf], (m, 1))
-    options = kernel_options(POSE, _AIM * chain.reach, _AIM, rule.iterations)
+    options = kernel_options(POSE, AIM * chain.reach, AIM, rule.iterations)
     fixed = (limits, arm.ranges, arm.box.periods, arm.free.astype(float))
 
     def run(

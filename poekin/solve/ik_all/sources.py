@@ -32,6 +32,10 @@ class Solvers(NamedTuple):
     solvers: Sequence[Solver]
     which: np.ndarray
 
+    def chosen(self, rows: np.ndarray) -> Solvers:
+        """The solvers of some of the targets, by their numbers or a mask."""
+        return self._replace(which=self.which[rows])
+
     def used(self) -> SolverUsed:
         """The solver whose arm is the farthest from the given one."""
         far = max(self.solvers, key=lambda one: max(one.position_bound, one.rotation_bound))

@@ -311,15 +311,17 @@ def test_an_arm_with_coaxial_neighbours_is_searched(cross):
 def test_a_target_that_the_closed_form_is_unsure_of_is_searched(monkeypatch):
     chain = arm("ur5")
     _, T = targets(chain, 5, 3)
-    whole = closed_form_module.ClosedForm.starts
+    branches = closed_form_module.ClosedForm.branches
 
-    def starts(self, T):
-        q, counts, _ = whole(self, T)
-        kept = np.repeat(np.array([True, False, True]), counts)
-        return q[kept], counts * [1, 0, 1], np.array([False, True, False])
+    def doubtful(self, T):
+        return *branches(self, T)[:2], np.array([False, True, False])
+
+    def no_starts(self, T):
+        return np.empty((0, 6)), np.zeros(len(T), int), np.ones(len(T), bool)
 
     expected = ik_all(chain, T, limits=False)
-    monkeypatch.setattr(closed_form_module.ClosedForm, "starts", starts)
+    monkeypatch.setattr(closed_form_module.ClosedForm, "branches", doubtful)
+    monkeypatch.setattr(closed_form_module.ClosedForm, "starts", no_starts)
     found = ik_all(chain, T, limits=False)
     for a, b in zip(found.solutions, expected.solutions, strict=True):
         assert same_sets(a, b, 1e-5)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....engine.kernels.branches import closed_kernels
+from ....engine.kernels.branches.closed_arm import BRANCHES
 from ....errors import InputError, quote
 from ....groups.arrays import Array
 from ....model.chain import Chain
@@ -62,6 +63,4 @@ def closed_arm(chain: Chain) -> ClosedArm:
             "point, and no three are parallel (or move in a plane). Chain.idealised makes rounded geometry "
             "exact; near= takes an arm nearby that has a closed form; ik_all solves any arm, in Python"
         )
-    return ClosedArm(
-        closed_kernels.fill, found.arm, closed_kernels.BRANCHES, chain.dof + 1, found.words
-    )
+    return ClosedArm(closed_kernels.fill, found.arm, BRANCHES, chain.dof + 1, found.words)

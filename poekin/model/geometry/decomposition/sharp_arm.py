@@ -53,11 +53,11 @@ def sharp_arm(chain: Chain) -> SharpArm | None:
 
 
 def branch_rows(arm: Array, dof: int, T: Array) -> tuple[Array, Array]:
-    """Branches (N, 16, m) of targets (N, 4, 4) and their margins (N, 16), NaN where there are fewer."""
+    """Branches (N, 8, m) of targets (N, 4, 4) and their margins (N, 8), NaN where there are fewer."""
     from ....engine.kernels.branches import closed_kernels as kernel  # which imports Numba
 
-    rows = np.empty((len(T), kernel.BRANCHES, dof + 1))
-    kernel.branches.call(arm, np.array(T, np.float64, order="C"), rows)
+    rows = np.empty((len(T), closed_arm.BRANCHES, dof + 1))
+    kernel.branches_of(arm).call(arm, np.array(T, np.float64, order="C"), rows)
     return rows[:, :, :-1], rows[:, :, -1]
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ....errors import join_names
 from ....groups.arrays import Array
-from .found import Found
+from .found import Tally
 
 BAD_TARGET = "0 solutions: bad target, it is not made of finite numbers"
 
@@ -128,7 +128,7 @@ def has_self_motion(self_motion: Mapping[int, tuple[str, ...]], count: int) -> n
     return has
 
 
-def missing_probability(found: Found, is_exact: bool) -> Array:
+def missing_probability(tally: Tally, is_exact: bool) -> Array:
     """The chance (N,) that a solution is missing which a try finds half as often as the rarest of
     those that were found.
 
@@ -137,11 +137,11 @@ def missing_probability(found: Found, is_exact: bool) -> Array:
     misses none. NaN where nothing is known: without solutions of a search, of a continuum, without
     room for more, and of the closed form of another arm.
     """
-    searched = found.restarts > 0
-    ends = np.where(found.ends > 0, found.ends, 1)
-    chance = (1.0 - 0.5 * found.least_hits() / ends) ** ends
+    searched = tally.restarts > 0
+    ends = np.where(tally.ends > 0, tally.ends, 1)
+    chance = (1.0 - 0.5 * tally.least_hits / ends) ** ends
     chance = np.where(searched, chance, 0.0 if is_exact else np.nan)
-    nothing = searched & (found.q.counts == 0)
-    moving = has_self_motion(found.self_motion, len(found))
-    chance[nothing | found.full | moving] = np.nan
+    nothing = searched & (tally.found == 0)
+    moving = has_self_motion(tally.self_motion, len(tally.found))
+    chance[nothing | tally.full | moving] = np.nan
     return chance

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -56,6 +57,30 @@ class Found:
             singular=_scattered(self.singular, numbers, count),
             self_motion={int(numbers[k]): names for k, names in self.self_motion.items()},
         )
+
+    def tally(self) -> Tally:
+        """Numbers of each target."""
+        return Tally(
+            found=self.q.counts,
+            least_hits=self.least_hits(),
+            ends=self.ends,
+            restarts=self.restarts,
+            full=self.full,
+            self_motion=self.self_motion,
+        )
+
+
+class Tally(NamedTuple):
+    """Numbers of the solutions found for N targets, limits apart, as in `Found`: how many, and how
+    often the one that was found least often.
+    """
+
+    found: np.ndarray
+    least_hits: Array
+    ends: np.ndarray
+    restarts: np.ndarray
+    full: np.ndarray
+    self_motion: Mapping[int, tuple[str, ...]]
 
 
 def joined(parts: Sequence[Found], dof: int) -> Found:

@@ -103,7 +103,7 @@ def make_places(
     within = np.bincount(owner[listed], minlength=len(found))
     if all_revolutions:
         number = np.ones(len(Q))
-    return Places(q, owner[row], _whole_numbers(number[row]), within)
+    return Places(q, owner[row], whole_numbers(number[row]), within)
 
 
 def turns_between(first: Array, last: Array) -> tuple[np.ndarray, Array]:
@@ -161,7 +161,7 @@ def _check_number(owner: np.ndarray, number: Array) -> None:
         )
 
 
-def _whole_numbers(number: np.ndarray) -> np.ndarray:
+def whole_numbers(number: np.ndarray) -> np.ndarray:
     """Numbers of places as whole numbers, the largest ones as MANY."""
     whole = np.full(len(number), MANY)
     few = number < float(MANY)

@@ -25,10 +25,10 @@ Q = np.array([0.4, -1.2, 1.5, -0.3, 0.8, 0.2])
 def test_one_target_uncompiled_and_a_batch_compiled_have_the_same_rows(name, joints):
     chain, table = arm(name, joints)
     T = chain.fk(Q[:joints])
-    one = np.full((16, joints + 1), np.nan)
+    one = np.full((8, joints + 1), np.nan)
     count = closed_kernels.fill(table, T, one)
-    many = np.empty((2, 16, joints + 1))
-    closed_kernels.branches.call(table, np.stack([T, T]), many)
+    many = np.empty((2, 8, joints + 1))
+    closed_kernels.branches_of(table).call(table, np.stack([T, T]), many)
     np.testing.assert_array_equal(many[0], many[1])
     np.testing.assert_allclose(many[0, :count], one[:count], atol=1e-9)
     assert np.isnan(many[0, count:]).all()
@@ -41,8 +41,8 @@ def test_a_target_that_is_not_finite_has_no_rows(bad, at):
     chain, table = arm("ur5")
     T = chain.fk(Q)
     T[at] = bad
-    rows = np.empty((1, 16, 7))
-    closed_kernels.branches.call(table, T[None].copy(), rows)
+    rows = np.empty((1, 8, 7))
+    closed_kernels.branches_of(table).call(table, T[None].copy(), rows)
     assert np.isnan(rows).all()
 
 
@@ -50,7 +50,7 @@ def test_a_joint_that_the_arm_does_not_have_is_at_zero_in_every_solution():
     chain, table = arm("puma560", 3)
     assert table[closed_arm.RULE, closed_arm.ADDED] == 3
     assert sorted(table[:6, closed_arm.COLUMN]) == [-1, -1, -1, 0, 1, 2]
-    rows = np.empty((16, 4))
+    rows = np.empty((8, 4))
     count = closed_kernels.fill(table, chain.fk(Q[:3]), rows)
     assert (rows[:count, 3] > 0).any()
     away = chain.fk(Q[:3])
