@@ -44,11 +44,12 @@ class AllSolutions(Result):
         Whether there are infinitely many: one of them is listed, and those that stand alone; of a
         redundant arm those at some values of the coordinate `redundant`.
     complete : bool, or (...) ndarray of bool
-        Whether these are all the solutions, by a closed form of the arm itself; False for a search,
-        a continuum, and a target that is not finite. `explanation` says why.
+        Whether these are all the solutions: by a closed form or elimination of the arm itself, or
+        of a near arm whose branches are all clear of double ones. False for a search, a continuum,
+        and a target that is not finite. `explanation` says why.
     p_missing : (...) ndarray
-        Probability of a solution missing: 0 for a closed form of the arm itself, NaN where nothing
-        was found by search, where there is a continuum, and for the closed form of a near arm.
+        Probability of a solution missing: 0 where `complete`, NaN where nothing was found by
+        search, where there is a continuum, and where only a near arm has a closed form.
     position_error, rotation_error : (...) ndarray
         Largest errors of the listed solutions by `Chain.fk`, m and rad; NaN without any.
     self_motion_coordinates : dict of int to tuple of str

@@ -21,6 +21,10 @@ EXACT = 1e-5
 start from there.
 """
 
+# a margin is of angles and of lengths by the reach, of which a link may be a tenth, and off by some
+# four times what the arm is
+_SHARE = 0.1
+_FACTOR = 4.0
 # a margin so far below 0 is no double root of any arm within EXACT, where there are other solutions
 _HOPELESS = 0.01
 
@@ -31,7 +35,7 @@ class ClosedForm:
 
     Attributes: arm, the array of `closed_arm`; dof, m; family, the three axes by which it is solved,
     in words; position_bound, rotation_bound, how far (m, rad) the arm that is solved is from the
-    given one: 0 where it is the same.
+    given one: 0 where it is the same; margin_bound, by how much margins are off for that at most.
     Source: Elias and Wen 2025, IK-Geo: unified robot inverse kinematics using subproblem
     decomposition; Murray, Li and Sastry 1994, Section 3.3.
     """
@@ -44,10 +48,16 @@ class ClosedForm:
     family: str
     position_bound: float
     rotation_bound: float
+    margin_bound: float = 0.0
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the arm that is solved is the given one."""
+        return not self.position_bound and not self.rotation_bound
 
     def said(self) -> str:
         """The way to the solutions, in words."""
-        if not self.position_bound and not self.rotation_bound:
+        if self.is_exact:
             return f"closed form ({self.family})"
         return (
             f"closed form ({self.family}) of the arm made exact, at most {self.position_bound:.1g} m and "
@@ -124,6 +134,12 @@ def _of(near: Idealised[Chain]) -> ClosedForm | None:
     found = sharp_arm(near.chain)
     if found is None:
         return None
+    off = max(near.rotation_bound, near.position_bound / (_SHARE * near.chain.reach))
     return ClosedForm(
-        found.arm, near.chain.dof, found.words, near.position_bound, near.rotation_bound
+        found.arm,
+        near.chain.dof,
+        found.words,
+        near.position_bound,
+        near.rotation_bound,
+        _FACTOR * off,
     )

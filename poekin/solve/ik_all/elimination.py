@@ -46,6 +46,7 @@ class Elimination:
 
     method: ClassVar[Literal["elimination"]] = "elimination"
     most: ClassVar[int] = 16
+    is_exact: ClassVar[bool] = True
     position_bound: ClassVar[float] = 0.0
     rotation_bound: ClassVar[float] = 0.0
 

@@ -24,7 +24,7 @@ from ..ragged import Ragged
 from .all_solutions import AllSolutions
 from .ik_all_search import POSE, Rule, SearchedArm, accepted
 from .listed import list_clear
-from .solution_sets.evidence import Evidence, Sampling, missing_probability
+from .solution_sets.evidence import Evidence, Sampling, SolverUsed, missing_probability
 from .solution_sets.found import reduce_parts
 from .solution_sets.listing import Listing, gathered
 from .solution_sets.places import Box, Places, in_order, make_places
@@ -270,19 +270,24 @@ def _solved(
     rows = np.repeat(rows, question.n_swivel, axis=0) if question.n_swivel > 1 else rows
     finite = np.asarray(np.isfinite(rows).all(axis=(1, 2)))
     numbers = np.flatnonzero(finite)
-    solvers = solvers_for(fast.chain, question.values[finite], question.free, method)
+    stages = solvers_for(fast.chain, question.values[finite], question.free, method)
     arm = SearchedArm(fast, question.box, question.free, parallel)
     parts: list[tuple[np.ndarray, Listing]] = []
-    others = solvers
-    if solvers is not None and question.is_plain and not all_revolutions:
-        parts, left = list_clear(arm, rows, question.values, solvers, numbers)
-        numbers = numbers[left]
-        others = solvers.chosen(left)
-    if len(numbers) or not parts:
-        rest = _searched(question, arm, rows, numbers, others, rule, all_revolutions)
+    left = np.arange(len(numbers))
+    if question.is_plain and not all_revolutions:
+        for stage in stages:
+            clear, unclear = list_clear(
+                arm, rows, question.values, stage.chosen(left), numbers[left]
+            )
+            parts += clear
+            left = left[unclear]
+    if len(left) or not parts:
+        last = stages[-1].chosen(left) if stages else None
+        rest = _searched(question, arm, rows, numbers[left], last, rule, all_revolutions)
         parts.insert(0, rest)
     listing = gathered(parts, len(rows))
-    return _result(question, wanted, listing, _evidence(question, listing, finite, solvers))
+    used = stages[0].used() if stages else None
+    return _result(question, wanted, listing, _evidence(question, listing, finite, used))
 
 
 def _searched(
@@ -309,19 +314,20 @@ def _searched(
             owner=places.owner[reached],
             number=places.number[reached],
         )
-    return np.arange(len(rows)), Listing(places, errors, found.tally())
+    return np.arange(len(rows)), Listing(
+        places, errors, found.tally(solvers is not None and solvers.is_exact)
+    )
 
 
 def _evidence(
     question: _Question,
     listing: Listing,
     finite: np.ndarray,
-    solvers: Solvers | None,
+    used: SolverUsed | None,
 ) -> Evidence:
     """Evidence on the solutions of each target, its samples taken together."""
-    used = None if solvers is None else solvers.used()
     tally = listing.tally
-    chance = missing_probability(tally, used is not None and used.is_exact)
+    chance = missing_probability(tally)
     n = question.n_swivel
     k = question.redundant
     sampling = None
@@ -338,6 +344,7 @@ def _evidence(
         ends=tally.ends.reshape(-1, n).sum(axis=1),
         restarts=tally.restarts.reshape(-1, n).sum(axis=1),
         full=np.asarray(tally.full.reshape(-1, n).any(axis=1)),
+        sure=np.asarray(tally.sure.reshape(-1, n).all(axis=1)),
         p_missing=chance,
         self_motion=self_motion,
         free=int(question.free.sum()),

@@ -16,13 +16,11 @@ from .solution_sets.listing import Listing
 from .solution_sets.places import Places, whole_numbers
 from .sources import Solver, Solvers
 
-# margins of more than some 100 times rounding are of isolated solutions: of double ones, and where
-# there are infinitely many, they are 0; out of reach by less than is accepted is not out of reach;
-# rad or m that Newton's rule moves a solution by at most
-_RULES = {
-    ClosedForm: np.array([1e-12, closed_arm.DOUBLE, 1e-4]),
-    Elimination: np.array([0.0, 0.0, 1e-3]),
-}
+# a margin of more than some 100 times rounding is of an isolated solution, as it is 0 of double ones and
+# where there are infinitely many; out of reach by less than is accepted is not out of reach
+_CLEAR = 1e-12
+_ABSENT = closed_arm.DOUBLE
+_MOVED = 1e-3  # rad or m: how far Newton's rule moves a solution at most
 _ITERATIONS = 8
 _LEAST_DOF = 6  # of fewer joints those that are added may be anywhere
 _AT_ONCE = 16384  # targets whose solutions are in memory with all their room
@@ -70,7 +68,7 @@ def _list(
     box = np.column_stack([arm.box.limits, arm.box.periods])
     fixed = (~arm.free).astype(float)
     options = kernel_options(POSE, AIM * fast.chain.reach, AIM, _ITERATIONS)
-    rule = _RULES[type(solver)]
+    rule = _rule(solver)
     q = np.empty((N, solver.most, fast.dof))
     numbers = np.empty((N, solver.most, kernel.ERRORS))
     info = np.empty((N, kernel.INFO))
@@ -96,6 +94,14 @@ def _list(
     return _listing(q, numbers, info[:, : kernel.IS_CLEAR], clear), clear
 
 
+def _rule(solver: Solver) -> Array:
+    """Margins above which a branch is a solution, and below which none; see `listed_branches`."""
+    if isinstance(solver, Elimination):
+        return np.array([0.0, 0.0, _MOVED])
+    off = solver.margin_bound
+    return np.array([max(_CLEAR, off), max(_ABSENT, off), _MOVED + off])
+
+
 def _listing(q: Array, numbers: Array, info: Array, clear: np.ndarray) -> Listing:
     """The listing of the targets that are clear, numbered as they come."""
     found, within = info[clear].astype(int).T
@@ -113,6 +119,7 @@ def _listing(q: Array, numbers: Array, info: Array, clear: np.ndarray) -> Listin
         ends=found,
         restarts=np.zeros(len(found), int),
         full=np.zeros(len(found), bool),
+        sure=np.ones(len(found), bool),
         self_motion={},
     )
     return Listing(places, listed[:, :2], tally)

@@ -32,6 +32,11 @@ class Solvers(NamedTuple):
     solvers: Sequence[Solver]
     which: np.ndarray
 
+    @property
+    def is_exact(self) -> bool:
+        """Whether all of them are solvers of the arms themselves, and of no near ones."""
+        return all(one.is_exact for one in self.solvers)
+
     def chosen(self, rows: np.ndarray) -> Solvers:
         """The solvers of some of the targets, by their numbers or a mask."""
         return self._replace(which=self.which[rows])
@@ -39,8 +44,7 @@ class Solvers(NamedTuple):
     def used(self) -> SolverUsed:
         """The solver whose arm is the farthest from the given one."""
         far = max(self.solvers, key=lambda one: max(one.position_bound, one.rotation_bound))
-        exact = far.position_bound == 0 == far.rotation_bound
-        return SolverUsed(far.method, far.said(), exact)
+        return SolverUsed(far.method, far.said())
 
 
 def solvers_for(
@@ -48,50 +52,52 @@ def solvers_for(
     values: Array,
     free: np.ndarray,
     method: Method,
-) -> Solvers | None:
-    """Solvers for targets whose locked coordinates have `values` (N, m), or None for the search.
-    Raises: InputError.
+) -> list[Solvers]:
+    """Solvers for targets whose locked coordinates have `values` (N, m): those that are asked first,
+    and those that are asked where these are not sure; none for the search. Raises: InputError.
     """
     if method == "search":
-        return None
-    count = len(values)
+        return []
     if free.all():
-        solver = _solver(chain, method)
-        return None if solver is None else Solvers([solver], np.zeros(count, int))
-    rows, which = np.unique(values[:, ~free], axis=0, return_inverse=True)
-    solvers: list[Solver] = []
+        rows = values[:1]
+        which = np.zeros(len(values), int)
+    else:
+        rows, which = np.unique(values[:, ~free], axis=0, return_inverse=True)
+        which = which.reshape(len(values))
+    each = []
     for row in rows:
         locked = np.full(chain.dof, np.nan)
-        locked[~free] = row
-        solver = _solver(free_chain(chain, locked), method)
-        if solver is None:
-            return None
-        solvers.append(solver)
-    return Solvers(solvers, which.reshape(count)) if solvers else None
+        locked[~free] = row[: np.count_nonzero(~free)]
+        each.append(_solvers(free_chain(chain, locked), method))
+    # of an arm that needs a search all do
+    return [Solvers(stage, which) for stage in zip(*each, strict=False)]
 
 
-def _solver(chain: Chain, method: Method) -> Solver | None:
-    """The closed form or elimination to use, or None for the search."""
-    found: Solver | None = None
+def _solvers(chain: Chain, method: Method) -> tuple[Solver, ...]:
+    """The closed form or elimination to use: where the closed form is that of a near arm, both; none
+    for the search.
+    """
+    closed = None
+    eliminated = None
     try:
         if method != "elimination":
-            found = _closed_form(chain)
-        if found is None and method != "closed":
-            found = _elimination(chain)
+            closed = _closed_form(chain)
+        if method != "closed" and not (closed and closed.is_exact):
+            eliminated = _elimination(chain)
     except InputError:  # of joints that are helical or coupled, or that elimination does not take
         if method != "auto":
             raise
-    if found is None and method == "closed":
+    if method == "closed" and closed is None:
         raise InputError(
             f"ik_all: {chain!r} has no closed form (no three neighbouring axes meet or are parallel, of five joints "
             "no two); method='elimination' or 'search' finds the solutions"
         )
-    if found is None and method == "elimination":
+    if method == "elimination" and eliminated is None:
         raise InputError(
             f"ik_all: {chain!r} is not solved by elimination (it takes six revolute joints whose loops "
             "do not all degenerate); method='search' finds the solutions"
         )
-    return found
+    return tuple(one for one in (closed, eliminated) if one is not None)
 
 
 def find(

@@ -47,7 +47,7 @@ def found(count, *, ends=0, restarts=0, full=False, self_motion=(), width=6, hit
 
 
 def evidence(one, inside, closed, **changes):
-    used = None if closed is None else SolverUsed("closed form", closed, True)
+    used = None if closed is None else SolverUsed("closed form", closed)
     made = Evidence(
         finite=np.array([True]),
         found=one.q.counts,
@@ -56,7 +56,8 @@ def evidence(one, inside, closed, **changes):
         ends=one.ends,
         restarts=one.restarts,
         full=one.full,
-        p_missing=missing_probability(one.tally(), True),
+        sure=np.array([closed is not None]),
+        p_missing=missing_probability(one.tally(True)),
         self_motion=one.self_motion,
         free=one.q.rows.shape[1],
         solver=used,
@@ -87,7 +88,7 @@ def test_solutions_are_counted_in_words(one, inside, closed, words):
 def test_a_search_says_how_often_each_was_found_and_an_odd_number():
     even = found(2, ends=30, restarts=40, hits=[20, 10])
     chance = (1 - 0.5 * 10 / 30) ** 30
-    assert missing_probability(even.tally(), False) == pytest.approx(chance)
+    assert missing_probability(even.tally(False)) == pytest.approx(chance)
     said = in_words(even, 2, None)
     assert said == (
         "2 solutions: search, 40 tries, each found 10 times or more; one that is half as easy to find as the rarest is "
@@ -98,14 +99,14 @@ def test_a_search_says_how_often_each_was_found_and_an_odd_number():
         "; the number is odd: one of them is a double one, or one is missing"
     )
     assert "odd" not in in_words(found(3, ends=30, restarts=40, width=5), 3, None)
-    assert missing_probability(found(4).tally(), True) == 0
-    assert np.isnan(missing_probability(found(4).tally(), False)), "of a near arm nothing is known"
+    assert missing_probability(found(4).tally(True)) == 0
+    assert np.isnan(missing_probability(found(4).tally(False))), "of a near arm nothing is known"
     for nothing in (
         found(2, self_motion=("a",)),
         found(40, full=True),
         found(0, restarts=9),
     ):
-        assert np.isnan(missing_probability(nothing.tally(), True))
+        assert np.isnan(missing_probability(nothing.tally(True)))
     assert in_words(found(40, ends=99, restarts=9, full=True), 40, None).startswith(
         "at least 40 solutions"
     )
@@ -124,8 +125,8 @@ def test_a_search_says_how_often_each_was_found_and_an_odd_number():
 def test_only_a_closed_form_of_the_arm_itself_finds_all_for_sure(
     one, closed, exact, finite, complete
 ):
-    used = None if closed is None else SolverUsed("closed form", closed, exact)
-    said = evidence(one, 0, closed, solver=used, finite=np.array([finite]))
+    sure = np.array([exact and closed is not None])
+    said = evidence(one, 0, closed, sure=sure, finite=np.array([finite]))
     assert said.complete.tolist() == [complete]
     assert said.continuum.tolist() == [bool(one.self_motion)]
 

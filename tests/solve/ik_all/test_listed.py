@@ -71,6 +71,19 @@ def test_near_a_singular_wrist_all_solutions_are_listed_and_are_complete():
     assert np.abs(found.solutions - q).max(axis=1).min() < 1e-9
 
 
+def test_a_rounded_arm_is_complete_by_its_exact_twin_and_elimination_where_that_is_in_doubt():
+    # right angles of 1.5708, as files have them: the axes miss each other by micrometres
+    chain = perturbed(pk.load("puma560").chain(), 3, angle=4e-6, length=1e-6)
+    T = chain.fk(chain.random(8, 200))
+    found = pk.ik_all(chain, T, limits=False)
+    assert found.method == "closed form"
+    assert np.mean(found.complete) > 0.95
+    expected = pk.ik_all(chain, T, limits=False, method="elimination")
+    both = found.complete & expected.complete
+    np.testing.assert_array_equal(found.counts[both], expected.counts[both])
+    np.testing.assert_allclose(found.q, expected.q, atol=1e-7)
+
+
 def test_threads_list_the_same():
     chain = pk.load("kr5").chain()
     T = chain.fk(chain.random(6, 700))
@@ -90,6 +103,7 @@ def outcome(owner: list[int], within: list[int], name: str) -> Listing:
         ends=np.full(count, 2),
         restarts=np.zeros(count, int),
         full=np.zeros(count, bool),
+        sure=np.ones(count, bool),
         self_motion={0: (name,)},
     )
     return Listing(places, np.stack([numbers, numbers], axis=1), tally)

@@ -19,13 +19,10 @@ BAD_TARGET = "0 solutions: bad target, it is not made of finite numbers"
 
 @dataclass(frozen=True)
 class SolverUsed:
-    """The closed form or elimination that found solutions: `method`; `said`, which one, in words;
-    `is_exact`, whether it is that of the arm itself, and no near one.
-    """
+    """The closed form or elimination that found solutions: `method`; `said`, which one, in words."""
 
     method: Literal["closed form", "elimination"]
     said: str
-    is_exact: bool
 
 
 @dataclass(frozen=True)
@@ -43,7 +40,7 @@ class Evidence:
     Attributes: finite, whether a target is made of finite numbers; found, solutions without limits;
     within, those within the limits; least_hits, how often the rarest of them was found; ends, tries
     that ended at any; restarts, random tries, 0 where a closed form was enough; full, whether there
-    may be more for want of room; p_missing, see `missing_probability`; self_motion, by number of
+    may be more for want of room; sure, as of `Tally`; p_missing, see `missing_probability`; self_motion, by number of
     the target the coordinates that move along a continuum; free, how many coordinates may move;
     solver, None for the search; sampling, None but for redundant arms.
     """
@@ -55,6 +52,7 @@ class Evidence:
     ends: np.ndarray
     restarts: np.ndarray
     full: np.ndarray
+    sure: np.ndarray
     p_missing: Array
     self_motion: Mapping[int, tuple[str, ...]]
     free: int
@@ -70,10 +68,8 @@ class Evidence:
 
     @property
     def complete(self) -> np.ndarray:
-        """Whether each target's solutions are all, by an exact closed form (N,)."""
-        if self.solver is None or not self.solver.is_exact:
-            return np.zeros(len(self.found), bool)
-        return self.finite & (self.restarts == 0) & ~self.full & ~self.continuum
+        """Whether each target's solutions are surely all (N,)."""
+        return self.sure & self.finite & (self.restarts == 0) & ~self.full & ~self.continuum
 
     def sentence(self, k: int) -> str:
         """Number of the solutions of target k, and of those inside the limits, the way they were
@@ -128,7 +124,7 @@ def has_self_motion(self_motion: Mapping[int, tuple[str, ...]], count: int) -> n
     return has
 
 
-def missing_probability(tally: Tally, is_exact: bool) -> Array:
+def missing_probability(tally: Tally) -> Array:
     """The chance (N,) that a solution is missing which a try finds half as often as the rarest of
     those that were found.
 
@@ -140,7 +136,7 @@ def missing_probability(tally: Tally, is_exact: bool) -> Array:
     searched = tally.restarts > 0
     ends = np.where(tally.ends > 0, tally.ends, 1)
     chance = (1.0 - 0.5 * tally.least_hits / ends) ** ends
-    chance = np.where(searched, chance, 0.0 if is_exact else np.nan)
+    chance = np.where(searched, chance, np.where(tally.sure, 0.0, np.nan))
     nothing = searched & (tally.found == 0)
     moving = has_self_motion(tally.self_motion, len(tally.found))
     chance[nothing | tally.full | moving] = np.nan

@@ -58,21 +58,22 @@ class Found:
             self_motion={int(numbers[k]): names for k, names in self.self_motion.items()},
         )
 
-    def tally(self) -> Tally:
-        """Numbers of each target."""
+    def tally(self, sure: bool) -> Tally:
+        """Numbers of each target; `sure`, whether a solver of the arm itself found them."""
         return Tally(
             found=self.q.counts,
             least_hits=self.least_hits(),
             ends=self.ends,
             restarts=self.restarts,
             full=self.full,
+            sure=np.full(len(self), sure),
             self_motion=self.self_motion,
         )
 
 
 class Tally(NamedTuple):
     """Numbers of the solutions found for N targets, limits apart, as in `Found`: how many, and how
-    often the one that was found least often.
+    often the one that was found least often; `sure` (N,), whether without a search these are all.
     """
 
     found: np.ndarray
@@ -80,6 +81,7 @@ class Tally(NamedTuple):
     ends: np.ndarray
     restarts: np.ndarray
     full: np.ndarray
+    sure: np.ndarray
     self_motion: Mapping[int, tuple[str, ...]]
 
 

@@ -44,6 +44,7 @@ def gathered(parts: Sequence[tuple[np.ndarray, Listing]], count: int) -> Listing
         ends=_scattered([(numbers, one.ends) for numbers, one in tallies], count),
         restarts=_scattered([(numbers, one.restarts) for numbers, one in tallies], count),
         full=_scattered([(numbers, one.full) for numbers, one in tallies], count),
+        sure=_scattered([(numbers, one.sure) for numbers, one in tallies], count),
         self_motion={
             int(numbers[k]): names
             for numbers, one in tallies

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.engine.kernels.branches import listed_branches as kernel
+from poekin.model.kinematics.compiled import CompiledChain
 from poekin.solve.ik.ik_problem import kernel_options
 from poekin.solve.ik_all.closed_form import closed_form
 from poekin.solve.ik_all.ik_all_search import POSE
@@ -21,7 +22,7 @@ RULE = np.array([1e-12, 1e-9, 1e-4])
 ANYWHERE = np.tile([-np.inf, np.inf, TURN], (6, 1))
 
 
-def branches() -> tuple[pk.CompiledChain, np.ndarray, np.ndarray, np.ndarray]:
+def branches() -> tuple[CompiledChain, np.ndarray, np.ndarray, np.ndarray]:
     """An arm, a target, its branches and their margins."""
     chain = pk.load("ur5").chain()
     found = closed_form(chain)
