@@ -10,13 +10,9 @@ import numpy as np
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.geometry.hp import HPForm
-from ..ik.task import pose_errors
-from .ik_all_search import POSE
 
 _ASKED = 48
 _FOUND = 1e-6  # rad
-_CLOSE = 1e-7  # rad, and m per metre of reach: more is no solution, and Newton's rule has far to go
-_MARGIN = 1e-7  # of less, two roots may be one
 _OFTEN = 0.5  # of the poses asked
 _TABLES = 4
 
@@ -72,12 +68,12 @@ class Elimination:
         """Solutions of targets (N, 4, 4), by the first table, and of those that it is not sure of by
         the next ones; what none is sure of, by all together.
         """
-        found = _rows(self.chain, self.tables[0], T)
+        found = _rows(self.tables[0], T)
         for table in self.tables[1:_TABLES]:
             unsure = np.flatnonzero(~found.sure)
             if not len(unsure):
                 break
-            other = _rows(self.chain, table, T[unsure])
+            other = _rows(table, T[unsure])
             for i, k in enumerate(unsure.tolist()):
                 if other.sure[i]:
                     for whole, part in zip(found, other, strict=True):
@@ -123,7 +119,7 @@ def elimination(chain: Chain) -> Elimination | None:
     for reverse in (0, 1):
         for begin in range(6):
             table = _table(form, reverse, begin)
-            found = _rows(chain, table, T)
+            found = _rows(table, T)
             failures, error = _tried(found, q)
             if failures < _OFTEN * _ASKED:
                 tried.append((failures, error, table))
@@ -169,7 +165,7 @@ def _table(form: HPForm, reverse: int, begin: int) -> Array:
     return table
 
 
-def _rows(chain: Chain, table: Array, T: Array) -> EliminatedRows:
+def _rows(table: Array, T: Array) -> EliminatedRows:
     from ...engine.kernels.branches import elimination_kernels  # which imports Numba
 
     N = len(T)
@@ -177,25 +173,9 @@ def _rows(chain: Chain, table: Array, T: Array) -> EliminatedRows:
     counts = np.empty((N, 2))
     targets = np.ascontiguousarray(T)
     elimination_kernels.eliminated.call(table, targets, rows, counts)
-    q = rows[..., :6].copy()
-    margin = rows[..., 6].copy()
-    found = margin >= 0.0
-    owner, _ = np.nonzero(found)
-    limits = _CLOSE * np.array([chain.reach, 1.0])
-    errors = pose_errors(chain, POSE, q[found], T[owner])
-    wrong = np.zeros_like(found)
-    wrong[found] = (errors > limits).any(axis=1)
-    unclear = found & (margin < _MARGIN)
-    doubtful = (wrong | unclear).any(axis=1)
-    count = counts[:, 0].astype(int)
-    is_flat = counts[:, 1] != 0.0
-    even = (count >= 0) & (count % 2 == 0)
-    sure = even & ~is_flat & ~doubtful
-    margin[wrong] = -1.0
-    count -= wrong.sum(axis=1)
     return EliminatedRows(
-        q,
-        margin,
-        count,
-        sure,
+        rows[..., :6],
+        rows[..., 6],
+        counts[:, 0].astype(int),
+        counts[:, 1] == 0.0,
     )
