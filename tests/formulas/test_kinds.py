@@ -208,7 +208,7 @@ CASES = [
     (circle_roots.value_and_slope, FOURIER, 0.6, 0.8),
     (circle_roots.steepest, FOURIER),
     (circle_roots.on_arcs, circle_roots.POLAR_FORMS, circle_roots.CENTRES, FOURIER, ON_ARCS, 8),
-    (circle_roots.brackets, ON_ARCS, 1e-14, *ROOT_ROOM),
+    *[(circle_roots.brackets, ON_ARCS, 1e-14, *ROOT_ROOM, whole) for whole in (True, False)],
     (circle_roots.half_of_root, ONE_BRACKET, 0, 1),
     (circle_roots.newton, FOURIER, ONE_BRACKET, 0, 1),
     *[(circle_roots.is_found, step, 0.5, 3.0) for step in (0.01, 1e-9)],

@@ -1,8 +1,9 @@
 """Solutions of targets of six revolute joints of any geometry, by elimination.
 
 Arm: row i < 6 of a table (9, 9) holds h_{i+1} and P_i, row 6 P_6 from its fourth number on, row 7
-R_nt, and row 8 the unit of length, whether the arm is read from its tip, and the joint at which the
-loop is begun. Importing this module imports Numba.
+R_nt, and row 8 the unit of length, whether the arm is read from its tip, the joint at which the loop
+is begun, and whether each quarter of the circle is looked at by itself where the determinant is flat
+at a root: many orders lie between its values then. Importing this module imports Numba.
 """
 
 import math
@@ -17,6 +18,7 @@ from ...jit.kernel import kernel
 from ...lanes import rows as lanes
 from .elimination_loop import (
     BEGIN,
+    QUARTERS,
     REVERSED,
     across_of,
     directions,
@@ -139,9 +141,9 @@ def polynomial(scratch, view):
     return circle_roots.size_and_noise(scratch.f)
 
 
-def roots(scratch, zero, steepest):
+def roots(scratch, zero, steepest, is_whole):
     """Number of roots of the polynomial, in `found` half of each as a point (cos, sin), and the
-    slope.
+    slope; those far from a view's quarter are left out.
     """
     many = lanes.at_once()
     circle_roots.on_arcs(
@@ -152,7 +154,13 @@ def roots(scratch, zero, steepest):
         circle_roots.ARCS // many,
     )
     brackets = scratch.brackets
-    number = circle_roots.brackets(scratch.on_arcs, zero, scratch.segments, brackets)
+    number = circle_roots.brackets(
+        scratch.on_arcs,
+        zero,
+        scratch.segments,
+        brackets,
+        is_whole,
+    )
     width = circle_roots.ROOM // many
     rows = lanes.rows(brackets)
     for k in range(number, many * -(-number // many)):
@@ -232,8 +240,10 @@ def fill(arm, target, rows, scratch, is_first):
         lanes.rows(scratch.sigma),
     )
     count, unsure, is_flat = _pass(arm, one, _WHOLE, scratch, rows, 0)
-    if is_flat:
-        # many orders lie between the determinant's values: each quarter is looked at by itself
+    unsure = unsure or is_flat
+    if is_flat and arm[8, QUARTERS] != 0.0:
+        count = 0
+        unsure = False
         for k in range(4):
             half = 0.25 * math.pi * k
             view = (math.cos(half), math.sin(half), _STRETCH)
@@ -246,17 +256,16 @@ def fill(arm, target, rows, scratch, is_first):
 
 def _pass(arm, one, view, scratch, rows, count):
     """Adds the solutions that are seen in a view; says whether there may be others, and whether some
-    root is flat in it. Of the whole circle, nothing is added then.
+    root is flat in it.
     """
     size, noise = polynomial(scratch, view)
     if count < 0 or not noise < _NOISE * size:
         return DEGENERATE, True, False
     steepest = circle_roots.steepest(scratch.f)
-    number = roots(scratch, max(_SPREAD * noise, _ROUNDING * size), steepest)
     is_whole = view[2] == 1.0
+    zero = max(_SPREAD * noise, _ROUNDING * size)
+    number = roots(scratch, zero, steepest, is_whole)
     kept, is_flat = _within(scratch.found, number, view[2], _FLAT * steepest)
-    if is_flat and is_whole:
-        return 0, False, True
     unsure = number == _ROOM
     for first in range(0, kept, lanes.at_once()):
         some = min(kept - first, lanes.at_once())

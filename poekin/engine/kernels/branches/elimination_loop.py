@@ -22,6 +22,7 @@ from ...jit.array_io import load_matrix
 UNIT = 0
 REVERSED = 1
 BEGIN = 2
+QUARTERS = 3
 
 
 def _vector(row, start):

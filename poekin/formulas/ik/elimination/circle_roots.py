@@ -26,7 +26,8 @@ ROOM = 32
 _DEPTH = 40  # halvings of an arc: 1e-12 rad
 SCRATCH = (_DEPTH + 2) * (LENGTH + 2)
 _SHORT = 0.5 ** (_DEPTH - 1)
-_START = 0.1234  # rad: no angle that an arm has of itself
+_START = 0.0923  # rad: no angle that an arm has of itself
+_OPPOSITE = (3, 4)  # arcs
 _NEAR = 1e-6  # rad: double roots that are one
 STEPS = 60
 """Most steps of Newton's rule."""
@@ -173,10 +174,11 @@ def on_arcs(forms, centres, f, b, width):
                     b[last] = b[last] + along - across
 
 
-def brackets(coefficients, noise, segments, found):
+def brackets(coefficients, noise, segments, found, is_whole):
     """Writes where each root is, and returns the number of roots: the segment of an arc, as tangents
     of half the angle from the arc's centre, a first guess and the sign at the segment's beginning.
 
+    Only those on the whole circle are between 2.45 and 4.01 rad.
     `coefficients` are those on the arcs, in rows of `ARCS`, and `found` is rows of `ROOM`, one for
     each of `FIELDS`; `segments` has room for SCRATCH numbers.
     """
@@ -186,7 +188,8 @@ def brackets(coefficients, noise, segments, found):
             segments[j] = coefficients[ARCS * j + arc]
         segments[LENGTH] = 0.0
         segments[LENGTH + 1] = 1.0
-        count = _on_arc(arc, noise, segments, found, count)
+        if is_whole or arc not in _OPPOSITE:
+            count = _on_arc(arc, noise, segments, found, count)
     if count > 1 and _apart(found, 0, count - 1) <= _NEAR:
         count -= 1  # the same root at the circle's beginning and end
     return count

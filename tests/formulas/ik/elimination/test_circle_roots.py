@@ -13,13 +13,13 @@ ROOM = circle_roots.ROOM
 K = np.arange(1, 9)
 
 
-def collected(f, noise):
-    """Angles and slopes (n, 2) of all roots."""
+def collected(f, noise, is_whole=True):
+    """Angles and slopes (n, 2) of all roots, or of those not on the opposite side."""
     f = [*map(float, f)]
     b = [0.0] * (circle_roots.LENGTH * circle_roots.ARCS)
     found = [0.0] * (circle_roots.FIELDS * ROOM)
     circle_roots.on_arcs(circle_roots.POLAR_FORMS, circle_roots.CENTRES, f, b, circle_roots.ARCS)
-    count = circle_roots.brackets(b, noise, [0.0] * circle_roots.SCRATCH, found)
+    count = circle_roots.brackets(b, noise, [0.0] * circle_roots.SCRATCH, found, is_whole)
     return np.array([polished(f, found, k) for k in range(count)]).reshape(-1, 2)
 
 
@@ -77,7 +77,7 @@ def test_every_root_of_a_product_is_found_and_no_other(pairs, seed):
         assert (apart(roots, found[:, 0]).min(axis=1) <= 64 * 2e-16 / slopes + 1e-15).all()
 
 
-@pytest.mark.parametrize("at", [0.1234, 0.1234 + pi / 4, 1.0, -3.0])
+@pytest.mark.parametrize("at", [0.0923, 0.0923 + pi / 4, 1.0, -3.0])
 def test_a_double_root_is_found_once_and_is_flat(at):
     # 1 - cos(x - at), at ends of arcs too, within rounding of its touching 0
     f = np.zeros(17)
@@ -92,13 +92,22 @@ def test_a_double_root_is_found_once_and_is_flat(at):
 
 
 def test_a_root_at_the_end_of_an_arc_is_found_once():
-    at = 0.1234
+    at = 0.0923
     f = np.zeros(17)
     f[1] = -np.sin(at)
     f[2] = np.cos(at)
     found = collected(f, 1e-15)
     assert len(found) == 2
     assert apart(found[:, 0], np.array([at, at + pi])).min(axis=1).max() <= 1e-12
+
+
+def test_roots_on_the_opposite_side_are_left_out_where_they_are_not_asked_for():
+    roots = np.array([-2.26, -1.0, 0.2, 2.25, 2.6, 3.1, 3.5, 3.9])
+    f = with_roots(roots, [0.0, 1.0, 2.0, 3.0])
+    found = collected(f, 1e-15, is_whole=False)[:, 0]
+    assert apart(found, roots[:4]).min(axis=1).max() <= 1e-9
+    assert len(found) == 4
+    assert len(collected(f, 1e-15)) == 8
 
 
 def test_values_at_the_samples_tell_the_coefficients_and_what_is_beyond_them():
