@@ -177,7 +177,7 @@ EQUATIONS: dict[str, str] = {
     ),
     "poekin.formulas.ik.elimination.null_rows": r"N N^T = I, \quad N B = 0",
     "poekin.formulas.ik.elimination.resultant": (
-        r"\det M(x_3) = \sum_{k=-8}^{8} F_k e^{i k x_3} = 0, \quad \Delta x = -\frac{w^T M v}{w^T M' v}"
+        r"\det M(x_3) = \sum_{k=-8}^{8} F_k e^{i k x_3} = 0, \quad M v = 0"
     ),
     "poekin.formulas.lie.defect": r"\|R^T R - I\|, \quad \det R",
 }

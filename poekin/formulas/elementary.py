@@ -83,3 +83,10 @@ def below(x, limit):
     if takes_series(x):
         return x < limit
     return x == 0
+
+
+def where_less(a, b, x, y):
+    """x where a < b, else y; of several numbers at once, each by itself."""
+    if a < b:
+        return x
+    return y

@@ -23,6 +23,11 @@ def test_of_floats_they_are_the_standard_library_s(x):
     assert elementary.atan2(x, -0.5) == math.atan2(x, -0.5)
 
 
+@pytest.mark.parametrize("a, b, expected", [(1.0, 2.0, 3.0), (2.0, 2.0, 4.0), (math.nan, 0.0, 4.0)])
+def test_of_two_numbers_the_first_is_taken_where_others_are_in_order(a, b, expected):
+    assert elementary.where_less(a, b, 3.0, 4.0) == expected
+
+
 @pytest.mark.parametrize("x", [-0.5, -2.0, math.nan])
 def test_a_float_without_a_square_root_has_nan_as_in_compiled_code(x):
     assert math.isnan(elementary.sqrt(x))

@@ -187,23 +187,31 @@ LOOP_AXES = tuple(
 LOOP_STEPS = tuple(tuple(map(float, step)) for step in LOOP.normal(size=(5, 3)))
 LINE = (V, LOOP_AXES[2])
 LOOP_POINTS = (0.6, 0.8, 0.28, -0.96, -0.8, 0.6)
-SIGMA = LOOP.normal(size=162).tolist()
+SIGMA = LOOP.normal(size=168).tolist()
 VECTOR = LOOP.normal(size=12).tolist()
-MATRIX = LOOP.normal(size=144).tolist()
-ORDER = (3, 1, 7, 3, 11, 5, 8, 7, 8, 10, 10, 11)
-FOURIER = LOOP.normal(size=17).tolist()
-POLAR_FORMS = circle_roots.TABLE
+EQUATIONS = LOOP.normal(size=54).tolist()
+STACKED = LOOP.normal(size=81).tolist()
+NEAR_SIDE = LOOP.normal(size=148).tolist()
+FAR_SIDE = LOOP.normal(size=420).tolist()
+FOURIER = LOOP.normal(size=24).tolist()
+ON_ARCS = LOOP.normal(size=17 * 8).tolist()
+ONE_BRACKET = [0.8, 0.6, -0.1, 0.2, 0.05, 1.0]  # of one root, in rows of one
 SEEN_VALUES = LOOP.normal(size=circle_roots.SAMPLES).tolist()
-ROOT_ROOM = ([0.0] * circle_roots.SCRATCH, [0.0] * (2 * circle_roots.ROOM))
+ROOT_ROOM = ([0.0] * circle_roots.SCRATCH, [0.0] * (circle_roots.FIELDS * circle_roots.ROOM))
 
 
 POSE = [[1.0, 0.0, 0.0, 0.3], [0.0, 1.0, 0.0, -0.2], [0.0, 0.0, 1.0, 0.5], [0.0, 0.0, 0.0, 1.0]]
 TURNED_POSE = [[0.6, -0.8, 0.0, 0.1], [0.8, 0.6, 0.0, 0.4], *POSE[2:]]
 CASES = [
-    (circle_roots.half_of_sample, POLAR_FORMS, 3),
-    (circle_roots.fourier, POLAR_FORMS, SEEN_VALUES, [0.0] * 17),
+    (circle_roots.fourier, circle_roots.WAVES, SEEN_VALUES, [0.0] * 24, 24),
+    (circle_roots.size_and_noise, FOURIER),
     (circle_roots.value_and_slope, FOURIER, 0.6, 0.8),
-    (circle_roots.collect, POLAR_FORMS, FOURIER, 1e-14, *ROOT_ROOM),
+    (circle_roots.steepest, FOURIER),
+    (circle_roots.on_arcs, circle_roots.POLAR_FORMS, circle_roots.CENTRES, FOURIER, ON_ARCS, 8),
+    *[(circle_roots.brackets, ON_ARCS, 1e-14, *ROOT_ROOM, whole) for whole in (True, False)],
+    (circle_roots.half_of_root, ONE_BRACKET, 0, 1),
+    (circle_roots.newton, FOURIER, ONE_BRACKET, 0, 1),
+    *[(circle_roots.is_found, step, 0.5, 3.0) for step in (0.01, 1e-9)],
     *[(f, *a) for f in (joints.unit, joints.doubled) for a in ((0.3, -0.4), (0.0, 0.0))],
     *[(joints.outer, v) for v in (VECTOR, VECTOR[::-1])],
     (joints.second, LOOP_AXES, LOOP_STEPS, *LINE, W, LONG),
@@ -211,12 +219,13 @@ CASES = [
     (joints.first, LOOP_AXES[0], V, W, LONG, LOOP_AXES[1]),
     (line_equations.moments, V, W, [0.0] * 16, 2),
     (line_equations.quarter_turns, LOOP_AXES[0], V),
-    (line_equations.eliminate, LOOP_AXES, LOOP_STEPS, *LINE, [0.0] * 210, [0.0] * 162),
-    (line_equations.near_side, LOOP_AXES, LOOP_STEPS, *LINE, [0.0] * 126),
-    (null_rows.fill, MATRIX[:112] + [0.0] * 98),
-    (resultant.matrix, SIGMA, (0.36, 0.48, 0.64), [0.0] * 144),
-    (resultant.factor, MATRIX, [0] * 12),
-    *[(f, MATRIX, ORDER, VECTOR) for f in (resultant.solve, resultant.solve_transposed)],
+    (line_equations.far_side, LOOP_AXES, LOOP_STEPS, [0.0] * 420, [0.0] * 14),
+    (line_equations.near_side, LOOP_AXES[0], LOOP_STEPS[0], *LINE, [0.0] * 148),
+    (line_equations.combine, NEAR_SIDE, FAR_SIDE, 28, [0.0] * 168),
+    *[(null_rows.fill, NEAR_SIDE, 1, *shape) for shape in ((6, 2), (8, 6))],
+    (resultant.equations, SIGMA, (0.36, 0.48, 0.64), [0.0] * 54),
+    (resultant.factor, EQUATIONS, [0.0] * 81),
+    (resultant.null_vector, EQUATIONS, STACKED, [0.0] * 12),
     *[(circle_conic.roots, *conic) for conic in CONICS],
     *[(circle_conic.points, conic, 16.0) for conic in CONICS],
     (circle_conic.derivatives, CONICS[0], 0.6, 0.8),

@@ -20,6 +20,7 @@ from numba.extending import intrinsic, overload, register_jitable
 from ... import algebra, formulas
 from ...formulas import elementary
 from ...formulas.lie import arctangent, compensated, exponential, logarithm, quaternion
+from ..lanes import vector
 from ..straight_line import sincos
 from . import array_io
 from .cache import KernelCache
@@ -52,6 +53,7 @@ _OVERLOADED = {
     array_io.without_refcount: lambda array: lambda array: _without_references(array),  # type: ignore[call-arg]
 }
 """Compiled code of the functions that are not compiled as they stand."""
+_COMPILED_OTHERWISE = {*_OVERLOADED, *vector.OVERLOADED}
 
 
 def _register() -> None:
@@ -75,7 +77,7 @@ def _register_functions(module) -> None:
     if module.__name__ not in _registered:
         _registered.add(module.__name__)
         for _, function in inspect.getmembers(module, inspect.isfunction):
-            if function.__module__ == module.__name__ and function not in _OVERLOADED:
+            if function.__module__ == module.__name__ and function not in _COMPILED_OTHERWISE:
                 inline = module in _INLINED
                 register_jitable(forceinline=inline, no_cfunc_wrapper=True)(function)
 

@@ -10,13 +10,9 @@ import numpy as np
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.geometry.hp import HPForm
-from ..ik.task import pose_errors
-from .ik_all_search import POSE
 
 _ASKED = 48
 _FOUND = 1e-6  # rad
-_CLOSE = 1e-7  # rad, and m per metre of reach: more is no solution, and Newton's rule has far to go
-_MARGIN = 1e-7  # of less, two roots may be one
 _OFTEN = 0.5  # of the poses asked
 _TABLES = 4
 
@@ -65,10 +61,8 @@ class Elimination:
         more solutions (N,).
         """
         found = self.rows(T)
-        finite = np.isfinite(found.q).all(axis=2)
-        taken = (found.margin >= 0.0) & finite
-        counts = taken.sum(axis=1)
-        return found.q[taken], counts, ~found.sure
+        taken = found.margin >= 0.0
+        return found.q[taken], taken.sum(axis=1), ~found.sure
 
     def branches(self, T: Array) -> tuple[Array, Array, np.ndarray]:
         """Branches (N, 16, 6) of targets (N, 4, 4), their margins (N, 16), NaN where there are fewer,
@@ -80,38 +74,38 @@ class Elimination:
 
     def rows(self, T: Array) -> EliminatedRows:
         """Solutions of targets (N, 4, 4), by the first table, and of those that it is not sure of by
-        the next ones; what none is sure of, by all together.
+        the next ones, then by quarters of the circle; what none is sure of, by all together.
         """
-        found = _rows(self.chain, self.tables[0], T)
-        for table in self.tables[1:_TABLES]:
+        tables = self.tables[:_TABLES]
+        found = _rows(tables[0], T)
+        for table in (*tables[1:], *map(_by_quarters, tables)):
             unsure = np.flatnonzero(~found.sure)
             if not len(unsure):
                 break
-            other = _rows(self.chain, table, T[unsure])
-            for i, k in enumerate(unsure.tolist()):
-                if other.sure[i]:
-                    for whole, part in zip(found, other, strict=True):
-                        whole[k] = part[i]
-                else:
-                    _join(found, k, other, i)
+            other = _rows(table, T[unsure])
+            _join(found, unsure[~other.sure], other, ~other.sure)
+            for whole, part in zip(found, other, strict=True):
+                whole[unsure[other.sure]] = part[other.sure]
         return found
 
 
-def _join(found: EliminatedRows, k: int, other: EliminatedRows, i: int) -> None:
-    """Adds the solutions of a target that another table has found, as far as there is room."""
-    q = found.q[k]
-    margin = found.margin[k]
-    for row in np.flatnonzero(other.margin[i] >= 0.0):
-        solution = other.q[i, row]
-        known = margin >= 0.0
-        if known.all():
-            break
-        off = _apart(q[known], solution)
-        if not (off < _FOUND).any():
-            free = int(np.argmin(known))
-            q[free] = solution
-            margin[free] = other.margin[i, row]
-            found.count[k] = known.sum() + 1
+def _join(found: EliminatedRows, which: np.ndarray, other: EliminatedRows, own: np.ndarray) -> None:
+    """Adds the solutions of some targets that another table has found, as far as there is room."""
+    q = found.q[which]
+    margin = found.margin[which]
+    others = other.q[own]
+    margins = other.margin[own]
+    target = np.arange(len(which))
+    for row in range(margins.shape[1]):
+        off = _apart(q, others[:, row, None])
+        is_known = ((off < _FOUND) & (margin >= 0.0)).any(axis=1)
+        free = np.argmin(margin, axis=1)
+        added = (margins[:, row] >= 0.0) & ~is_known & (margin[target, free] < 0.0)
+        q[added, free[added]] = others[added, row]
+        margin[added, free[added]] = margins[added, row]
+    found.q[which] = q
+    found.margin[which] = margin
+    found.count[which] = (margin >= 0.0).sum(axis=1)
 
 
 def elimination(chain: Chain) -> Elimination | None:
@@ -133,15 +127,17 @@ def elimination(chain: Chain) -> Elimination | None:
     for reverse in (0, 1):
         for begin in range(6):
             table = _table(form, reverse, begin)
-            found = _rows(chain, table, T)
-            failures, error = _tried(found, q)
-            if failures < _OFTEN * _ASKED:
-                tried.append((failures, error, table))
+            failures, error = _tried(_rows(table, T), q)
+            at_most, _ = _tried(_rows(_by_quarters(table), T), q)
+            if at_most < _OFTEN * _ASKED:
+                # at these joints nothing but the line is to be computed anew for each target
+                is_slow = begin not in (0, 5)
+                tried.append((failures, is_slow, error, table))
     if not tried:
         return None
     # a stable sort: of equal ones the first that was tried
-    tried.sort(key=lambda one: one[:2])
-    tables = np.array([table for _, _, table in tried])
+    tried.sort(key=lambda one: one[:3])
+    tables = np.array([one[3] for one in tried])
     return Elimination(chain, tables)
 
 
@@ -179,7 +175,14 @@ def _table(form: HPForm, reverse: int, begin: int) -> Array:
     return table
 
 
-def _rows(chain: Chain, table: Array, T: Array) -> EliminatedRows:
+def _by_quarters(table: Array) -> Array:
+    """A table that has the determinant looked at by quarters of the circle where it is flat."""
+    other = table.copy()
+    other[8, 3] = 1.0
+    return other
+
+
+def _rows(table: Array, T: Array) -> EliminatedRows:
     from ...engine.kernels.branches import elimination_kernels  # which imports Numba
 
     N = len(T)
@@ -187,25 +190,9 @@ def _rows(chain: Chain, table: Array, T: Array) -> EliminatedRows:
     counts = np.empty((N, 2))
     targets = np.ascontiguousarray(T)
     elimination_kernels.eliminated.call(table, targets, rows, counts)
-    q = rows[..., :6].copy()
-    margin = rows[..., 6].copy()
-    found = margin >= 0.0
-    owner, _ = np.nonzero(found)
-    limits = _CLOSE * np.array([chain.reach, 1.0])
-    errors = pose_errors(chain, POSE, q[found], T[owner])
-    wrong = np.zeros_like(found)
-    wrong[found] = (errors > limits).any(axis=1)
-    unclear = found & (margin < _MARGIN)
-    doubtful = (wrong | unclear).any(axis=1)
-    count = counts[:, 0].astype(int)
-    is_flat = counts[:, 1] != 0.0
-    even = (count >= 0) & (count % 2 == 0)
-    sure = even & ~is_flat & ~doubtful
-    margin[wrong] = -1.0
-    count -= wrong.sum(axis=1)
     return EliminatedRows(
-        q,
-        margin,
-        count,
-        sure,
+        rows[..., :6],
+        rows[..., 6],
+        counts[:, 0].astype(int),
+        counts[:, 1] == 0.0,
     )

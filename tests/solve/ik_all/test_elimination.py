@@ -80,6 +80,14 @@ def test_all_that_a_search_finds_is_found():
             assert apart(ours, solution).min() < CLOSE
 
 
+def test_where_the_determinant_spans_many_orders_no_solution_is_lost_unsaid():
+    # more roots of what is 0 but for rounding, far from a quarter, than there is room for
+    chain = pk.load("jaco").chain()
+    q = [-0.6296941, -1.94355181, -0.15500742, 0.07573711, -0.0093472, -2.83831676]
+    found = solved(chain, chain.fk(q)[None])
+    assert found.count[0] == 12 or not found.sure[0]
+
+
 def test_out_of_reach_there_is_no_solution_and_that_is_sure():
     chain = arm(1, ())
     T = np.eye(4)

@@ -1,8 +1,9 @@
 """Solutions of targets of six revolute joints of any geometry, by elimination.
 
 Arm: row i < 6 of a table (9, 9) holds h_{i+1} and P_i, row 6 P_6 from its fourth number on, row 7
-R_nt, and row 8 the unit of length, whether the arm is read from its tip, and the joint at which the
-loop is begun. Importing this module imports Numba.
+R_nt, and row 8 the unit of length, whether the arm is read from its tip, the joint at which the loop
+is begun, and whether each quarter of the circle is looked at by itself where the determinant is flat
+at a root: many orders lie between its values then. Importing this module imports Numba.
 """
 
 import math
@@ -10,14 +11,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....algebra import rotate, scale, subtract, transform
+from ....algebra import rotate, subtract, transform
+from ....formulas import elementary
 from ....formulas.ik.elimination import circle_roots, joints, line_equations, resultant
 from ...jit.kernel import kernel
+from ...lanes import rows as lanes
 from .elimination_loop import (
     BEGIN,
+    QUARTERS,
     REVERSED,
     across_of,
     directions,
+    is_far_side_fixed,
     loop,
     motion,
     nine,
@@ -34,135 +39,160 @@ DEGENERATE = -1
 _NOISE = 1e-6  # of the largest coefficient: of more, nothing is known
 # two coefficients tell the noise of the others by chance only, and it is not below rounding
 _SPREAD = 16.0
-_ROUNDING = 1e-14
+_ROUNDING = 5e-14
 _SHARPENED = 4
-_INVERSE = 2
 _FLAT = 1e-6  # of the largest slope
+_CLOSE = 1e-7  # rad, and of the arm's size: a line that ends farther off is no solution's
 _SAME = 1e-7  # rad
 _STRETCH = 0.2
-_QUARTER = 0.25 * math.pi + 1e-3
-_DONE = 1e-13
-_TABLE = np.array(circle_roots.TABLE)
-
-
-def _squares(C, S):
-    return (
-        C * C,
-        C * S,
-        S * S,
-    )
-
-
-def _slopes(C, S):
-    """Derivatives of the squares, with respect to the whole angle."""
-    product = C * S
-    return (
-        -product,
-        0.5 * (C * C - S * S),
-        product,
-    )
-
-
-def polynomial(sigma, view, scratch):
-    """Writes the Fourier coefficients of the determinant into f; returns the largest and the noise.
-
-    A view (x_0, k) is the angle x' of tan((x - x_0) / 2) = k tan(x' / 2): of k < 1 the arc around
-    x_0 is seen larger, and the determinant elsewhere, which is many orders larger at times, smaller.
-    """
-    centre, stretch = view
-    M = scratch.M
-    f = scratch.f
-    values = scratch.values
-    c = math.cos(0.5 * centre)
-    s = math.sin(0.5 * centre)
-    for k in range(circle_roots.SAMPLES):
-        x, y = circle_roots.half_of_sample(_TABLE, k)
-        y *= stretch
-        squared = x * x + y * y
-        C = c * x - s * y
-        S = s * x + c * y
-        weights = scale(1.0 / squared, _squares(C, S))
-        resultant.matrix(sigma, weights, M)
-        det = resultant.factor(M, scratch.order)
-        values[k] = det * squared**circle_roots.DEGREE
-    noise = circle_roots.fourier(_TABLE, values, f)
-    size = 0.0
-    for k in range(2 * circle_roots.DEGREE + 1):
-        size = max(size, abs(f[k]))
-    return size, noise
-
-
-def sharpen(x, sigma, scratch):
-    """The angle near x at which M is singular, and its margin |w^T M' v| / |M|; v is left in the
-    scratch: the vector that M takes to 0.
-    """
-    M = scratch.M
-    v = scratch.v
-    w = scratch.w
-    margin = 0.0
-    for _ in range(_SHARPENED):
-        half = 0.5 * x
-        C = math.cos(half)
-        S = math.sin(half)
-        squares = _squares(C, S)
-        resultant.matrix(sigma, squares, M)
-        _inverse_iteration(scratch)
-        resultant.matrix(sigma, squares, M)
-        value = _bilinear(w, M, v)
-        resultant.matrix(sigma, _slopes(C, S), M)
-        slope = _bilinear(w, M, v)
-        size = 0.0
-        for i in range(9 * resultant.SIZE):
-            size = max(size, abs(M[i]))
-        error = abs(value)
-        steepness = abs(slope)
-        margin = steepness / size
-        if not error < 0.1 * steepness:
-            break
-        x -= value / slope
-        if error <= _DONE * steepness:
-            break
-    return x, margin
-
-
-def _inverse_iteration(scratch):
-    """Writes the vectors v and w of M's smallest singular value; M is lost."""
-    M = scratch.M
-    order = scratch.order
-    v = scratch.v
-    w = scratch.w
-    resultant.factor(M, order)
-    for i in range(resultant.SIZE):
-        number = 1.0 + 0.1 * i
-        v[i] = number
-        w[i] = number
-    for _ in range(_INVERSE):
-        resultant.solve(M, order, v)
-        resultant.solve_transposed(M, order, w)
-
-
-def _bilinear(w, M, v):
-    total = 0.0
-    for i in range(resultant.SIZE):
-        part = 0.0
-        row = resultant.SIZE * i
-        for k in range(resultant.SIZE):
-            part += M[row + k] * v[k]
-        total += w[i] * part
-    return total
+_TANGENT = math.tan(0.125 * math.pi + 5e-4)  # of half of a view's quarter, and of some more
+_FAR = 0.05  # rad, half: a step that long leads elsewhere
+_WHOLE = (1.0, 0.0, 1.0)
+_POLAR_FORMS = np.array(circle_roots.POLAR_FORMS)
+_CENTRES = np.array(circle_roots.CENTRES)
+_HALVES = np.array(circle_roots.HALVES)
+_WAVES = np.array(circle_roots.WAVES)
+_ROOM = circle_roots.ROOM
+_TOGETHER = 4  # roots
+_GAP = 12
 
 
 class EliminationScratch(NamedTuple):
-    """Arrays that every pass uses anew."""
+    """Arrays that every target uses anew, and the far side of those whose own it is."""
 
-    numbers: np.ndarray
+    axes: np.ndarray
+    far_side: np.ndarray
+    near_side: np.ndarray
+    sigma: np.ndarray
+    A: np.ndarray
+    M: np.ndarray
     values: np.ndarray
     f: np.ndarray
-    M: np.ndarray
-    order: np.ndarray
-    v: np.ndarray
-    w: np.ndarray
+    on_arcs: np.ndarray
+    segments: np.ndarray
     found: np.ndarray
+    brackets: np.ndarray
+    v: np.ndarray
+    solved: np.ndarray
+
+
+def _scratch():
+    return EliminationScratch(
+        np.empty((6, 6)),
+        np.empty(line_equations.FAR_SIDE),
+        np.empty(line_equations.NEAR_SIDE),
+        np.empty(line_equations.KEPT * line_equations.ROOM),
+        np.empty(_TOGETHER * resultant.EQUATIONS),
+        np.empty(_TOGETHER * resultant.STACKED),
+        np.empty(circle_roots.SAMPLES),
+        np.empty(circle_roots.COEFFICIENTS),
+        np.empty(circle_roots.LENGTH * circle_roots.ARCS),
+        np.empty(circle_roots.SCRATCH),
+        np.empty(3 * _ROOM),
+        np.empty(circle_roots.FIELDS * _ROOM),
+        np.empty(_TOGETHER * resultant.SIZE),
+        np.empty(_TOGETHER * (_GAP + 1)),
+    )
+
+
+def determinant(scratch, view, x, y):
+    """The determinant at angles of which (x, y) is half of each, in a view; the factors are left in
+    the scratch.
+
+    A view (c, s, k), c and s of half of x_0, is the angle x' of tan((x - x_0) / 2) = k tan(x' / 2):
+    of k < 1 the arc around x_0 is seen larger, and the determinant elsewhere, which is many orders
+    larger at times, smaller.
+    """
+    c, s, stretch = view
+    y = stretch * y
+    C = c * x - s * y
+    S = s * x + c * y
+    square = x * x + y * y
+    share = 1.0 / square
+    weights = (
+        C * C * share,
+        C * S * share,
+        S * S * share,
+    )
+    A = lanes.rows(scratch.A)
+    resultant.equations(scratch.sigma, weights, A)
+    det = resultant.factor(A, lanes.rows(scratch.M))
+    fourth = square * square
+    eighth = fourth * fourth
+    return det * eighth * eighth
+
+
+def polynomial(scratch, view):
+    """Writes the Fourier coefficients of the determinant in a view, and those on the arcs; returns
+    the largest and the noise.
+    """
+    many = lanes.at_once()
+    groups = circle_roots.SAMPLES // many
+    halves = lanes.rows(_HALVES)
+    values = lanes.rows(scratch.values)
+    for k in range(groups):
+        values[k] = determinant(scratch, view, halves[k], halves[groups + k])
+    circle_roots.fourier(
+        lanes.rows(_WAVES),
+        scratch.values,
+        lanes.rows(scratch.f),
+        circle_roots.COEFFICIENTS // many,
+    )
+    return circle_roots.size_and_noise(scratch.f)
+
+
+def roots(scratch, zero, steepest, is_whole):
+    """Number of roots of the polynomial, in `found` half of each as a point (cos, sin), and the
+    slope; those far from a view's quarter are left out.
+    """
+    many = lanes.at_once()
+    circle_roots.on_arcs(
+        _POLAR_FORMS,
+        lanes.rows(_CENTRES),
+        scratch.f,
+        lanes.rows(scratch.on_arcs),
+        circle_roots.ARCS // many,
+    )
+    brackets = scratch.brackets
+    number = circle_roots.brackets(
+        scratch.on_arcs,
+        zero,
+        scratch.segments,
+        brackets,
+        is_whole,
+    )
+    width = circle_roots.ROOM // many
+    rows = lanes.rows(brackets)
+    for k in range(number, many * -(-number // many)):
+        for i in range(circle_roots.FIELDS):
+            brackets[circle_roots.ROOM * i + k] = brackets[circle_roots.ROOM * i]
+    found = lanes.rows(scratch.found)
+    for group in range(-(-number // many)):
+        _polish(scratch, rows, group, width, steepest)
+        C, S = circle_roots.half_of_root(rows, group, width)
+        found[group] = C
+        found[width + group] = S
+        found[2 * width + group] = lanes.rows(scratch.values)[1]
+    return number
+
+
+def _polish(scratch, rows, group, width, steepest):
+    """Newton's rule on some roots, until it is done with all; leaves their slopes."""
+    many = lanes.at_once()
+    values = lanes.rows(scratch.values)
+    for _ in range(circle_roots.STEPS):
+        step, slope = circle_roots.newton(scratch.f, rows, group, width)
+        values[0] = step
+        values[1] = slope
+        is_done = True
+        for k in range(many):
+            is_done = is_done and circle_roots.is_found(
+                scratch.values[k],
+                scratch.values[many + k],
+                steepest,
+            )
+        if is_done:
+            break
 
 
 class JointLoop(NamedTuple):
@@ -178,104 +208,157 @@ class JointLoop(NamedTuple):
     across: tuple
 
 
-def _scratch():
-    size = resultant.SIZE
-    numbers = max(circle_roots.SCRATCH, 15 * line_equations.EQUATIONS)
-    return EliminationScratch(
-        np.empty(numbers),
-        np.empty(circle_roots.SAMPLES),
-        np.empty(2 * circle_roots.DEGREE + 1),
-        np.empty(size * size),
-        np.empty(size, np.int64),
-        np.empty(size),
-        np.empty(size),
-        np.empty(2 * circle_roots.ROOM),
-    )
-
-
-def fill(arm, target, rows):
-    """Writes six angles and a margin into as many rows as there are solutions, -1 as the margin of
-    the others; returns the number, or DEGENERATE, and whether the determinant is flat at a root.
-    """
-    axes = np.empty((6, 6))
+def _loop(arm, target, axes):
     whole = motion(arm, target)
     G = loop(arm, whole, axes)
     h = directions(axes)
     last = h[5]
     moved = transform(G, point(axes, 5))
-    W = subtract(moved, point(axes, 0))
     R = nine(G)
-    one = JointLoop(
+    return JointLoop(
         h,
         steps(axes),
-        W,
+        subtract(moved, point(axes, 0)),
         rotate(R, last),
         R,
         across_of(last),
     )
-    scratch = _scratch()
-    sigma = np.empty(27 * line_equations.KEPT)
-    line_equations.eliminate(h, one.P, W, one.d, scratch.numbers, sigma)
-    count = 0
-    unsure = False
-    for k in range(5):
-        # where many orders lie between the determinant's values, each quarter is looked at by itself
-        view = (0.0, 1.0)
-        if k > 0:
-            view = (0.5 * math.pi * k, _STRETCH)
-        count, flat = _pass(arm, one, sigma, view, scratch, rows, count)
-        if k > 0:
-            unsure = unsure or flat
-        elif not flat:
-            break
+
+
+def fill(arm, target, rows, scratch, is_first):
+    """Writes six angles and a margin into as many rows as there are solutions, -1 as the margin of
+    the others; returns the number, or DEGENERATE, and whether there may be others.
+    """
+    one = _loop(arm, target, scratch.axes)
+    if is_first or not is_far_side_fixed(arm):
+        line_equations.far_side(one.h, one.P, scratch.far_side, scratch.near_side)
+    line_equations.near_side(one.h[0], one.P[0], one.W, one.d, scratch.near_side)
+    line_equations.combine(
+        scratch.near_side,
+        lanes.rows(scratch.far_side),
+        line_equations.ROOM // lanes.at_once(),
+        lanes.rows(scratch.sigma),
+    )
+    count, unsure, is_flat = _pass(arm, one, _WHOLE, scratch, rows, 0)
+    unsure = unsure or is_flat
+    if is_flat and arm[8, QUARTERS] != 0.0:
+        count = 0
+        unsure = False
+        for k in range(4):
+            half = 0.25 * math.pi * k
+            view = (math.cos(half), math.sin(half), _STRETCH)
+            count, doubtful, is_flat = _pass(arm, one, view, scratch, rows, count)
+            unsure = unsure or doubtful or is_flat
     for k in range(max(count, 0), rows.shape[0]):
-        rows[k][6] = -1.0
-    return count, unsure
+        rows[k, 6] = -1.0
+    return count, unsure or count < 0 or count % 2 != 0
 
 
-def _pass(arm, one, sigma, view, scratch, rows, count):
-    """Adds the solutions that are seen in a view, and says whether some root is flat in it."""
-    size, noise = polynomial(sigma, view, scratch)
-    if not noise < _NOISE * size:
-        return DEGENERATE, False
-    found = scratch.found
+def _pass(arm, one, view, scratch, rows, count):
+    """Adds the solutions that are seen in a view; says whether there may be others, and whether some
+    root is flat in it.
+    """
+    size, noise = polynomial(scratch, view)
+    if count < 0 or not noise < _NOISE * size:
+        return DEGENERATE, True, False
+    steepest = circle_roots.steepest(scratch.f)
+    is_whole = view[2] == 1.0
     zero = max(_SPREAD * noise, _ROUNDING * size)
-    number = circle_roots.collect(_TABLE, scratch.f, zero, scratch.numbers, found)
-    centre, stretch = view
-    is_whole = stretch == 1.0
-    if is_whole:
-        for k in range(number):
-            if found[2 * k + 1] < _FLAT:
-                return 0, True
-    flat = False
-    for k in range(number):
-        half = 0.5 * found[2 * k]
-        tangent = math.sin(half) / math.cos(half)
-        off = 2.0 * math.atan(stretch * tangent)
-        if is_whole or abs(off) <= _QUARTER:
-            steepness = found[2 * k + 1]
-            flat = flat or steepness < _FLAT
-            x, margin = sharpen(centre + off, sigma, scratch)
-            angles = _angles(one, x, scratch.v)
-            if 0 <= count < rows.shape[0]:
-                _set(arm, rows[count], angles, margin)
+    number = roots(scratch, zero, steepest, is_whole)
+    kept, is_flat = _within(scratch.found, number, view[2], _FLAT * steepest)
+    unsure = number == _ROOM
+    for first in range(0, kept, lanes.at_once()):
+        some = min(kept - first, lanes.at_once())
+        _sharpen(one, view, scratch, first, some)
+        for k in range(some):
+            if not _value(scratch.solved, _GAP, k) <= _CLOSE or count >= rows.shape[0]:
+                unsure = True
+            else:
+                _set(arm, rows[count], scratch.solved, k)
+                rows[count, 6] = abs(scratch.found[2 * _ROOM + first + k]) / steepest
                 if _is_new(rows, count):
                     count += 1
-    return count, flat
+                elif is_whole:
+                    unsure = True
+    return count, unsure, is_flat
 
 
-def _angles(one, x, v):
-    """(c, s) of all joints, of the third one's angle and a vector of products."""
+def _within(found, number, stretch, flat):
+    """Number of roots within the quarter that a view is of, which are the first then, and whether
+    some slope is flat.
+    """
+    kept = 0
+    is_flat = False
+    for k in range(number):
+        C = found[k]
+        S = found[_ROOM + k]
+        if stretch == 1.0 or stretch * abs(S) <= _TANGENT * abs(C):
+            slope = found[2 * _ROOM + k]
+            is_flat = is_flat or abs(slope) < flat
+            found[kept] = C
+            found[_ROOM + kept] = S
+            found[2 * _ROOM + kept] = slope
+            kept += 1
+    return kept, is_flat
+
+
+def _value(rows, i, k):
+    """The k-th of the numbers that are the i-th of some rows."""
+    return rows[lanes.at_once() * i + k]
+
+
+def _sharpen(one, view, scratch, first, some):
+    """Joints of the loop at roots, brought nearer by Newton's rule until their lines are where they
+    should be: its determinant is exact, where the polynomial has the noise of all.
+    """
+    found = scratch.found
+    many = lanes.at_once()
+    for k in range(first + some, first + many):
+        for i in range(3):
+            found[_ROOM * i + k] = found[_ROOM * i + first]
+    width = _ROOM // many
+    roots = lanes.rows(found)
+    group = first // many
+    v = lanes.rows(scratch.v)
+    solved = lanes.rows(scratch.solved)
+    for _ in range(_SHARPENED):
+        C = roots[group]
+        S = roots[width + group]
+        size = C * C + S * S
+        value = determinant(scratch, view, C, S)
+        eighth = size * size * size * size
+        resultant.null_vector(lanes.rows(scratch.A), lanes.rows(scratch.M), v)
+        step = value / (2.0 * eighth * eighth * roots[2 * width + group])
+        step = elementary.where_less(abs(step), _FAR, step, 0.0)
+        x = C + step * S
+        y = S - step * C
+        roots[group] = x
+        roots[width + group] = y
+        _joints(one, view, x, y, v, solved)
+        is_close = True
+        for k in range(some):
+            is_close = is_close and _value(scratch.solved, _GAP, k) <= _CLOSE
+        if is_close:
+            break
+
+
+def _joints(one, view, x, y, v, solved):
+    """Writes (c, s) of all joints, of half of the third one's angle in a view and a vector of
+    products, and how far the last line is from its place.
+    """
+    c, s, stretch = view
+    y = stretch * y
+    c3, s3 = joints.doubled(c * x - s * y, s * x + c * y)
     c4, s4, c5, s5 = joints.outer(v)
     points = (
-        math.cos(x),
-        math.sin(x),
+        c3,
+        s3,
         c4,
         s4,
         c5,
         s5,
     )
-    angles, _ = joints.every(
+    angles, _, gap = joints.every(
         one.h,
         one.P,
         one.W,
@@ -284,7 +367,9 @@ def _angles(one, x, v):
         one.across,
         points,
     )
-    return angles
+    for k in range(_GAP):
+        solved[k] = angles[k]
+    solved[_GAP] = gap
 
 
 def _is_new(rows, count):
@@ -292,34 +377,33 @@ def _is_new(rows, count):
     new = rows[count]
     for k in range(count):
         row = rows[k]
-        most = 0.0
+        is_same = True
         for i in range(6):
             off = abs(row[i] - new[i])
-            off = min(off, 2.0 * math.pi - off)
-            most = max(most, off)
-        if most < _SAME:
+            is_same = is_same and min(off, 2.0 * math.pi - off) < _SAME
+        if is_same:
             return False
     return True
 
 
-def _set(arm, row, x, margin):
-    """Angles of the loop's joints, at their places in the arm, and the margin, into a row."""
+def _set(arm, row, solved, k):
+    """The k-th solution's angles of the loop's joints, at their places in the arm, into a row."""
     how = arm[8]
     begin = int(how[BEGIN])
-    for k in range(6):
-        i = (k + begin) % 6
+    for joint in range(6):
+        i = (joint + begin) % 6
         if how[REVERSED] != 0.0:
             i = 5 - i
-        c = x[2 * k]
-        s = x[2 * k + 1]
+        c = _value(solved, 2 * joint, k)
+        s = _value(solved, 2 * joint + 1, k)
         row[i] = math.atan2(s, c)
-    row[6] = margin
 
 
 @kernel("w2 w3 w3 w2")
 def eliminated(arm, targets, rows, counts):
-    """All solutions of each target; their number, and 1 where the determinant is flat at a root."""
+    """All solutions of each target; their number, and 1 where there may be others."""
+    scratch = _scratch()
     for k in range(targets.shape[0]):
-        count, flat = fill(arm, targets[k], rows[k])
+        count, unsure = fill(arm, targets[k], rows[k], scratch, k == 0)
         counts[k, 0] = count
-        counts[k, 1] = 1.0 if flat else 0.0
+        counts[k, 1] = 1.0 if unsure else 0.0

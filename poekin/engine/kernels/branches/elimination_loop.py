@@ -22,6 +22,7 @@ from ...jit.array_io import load_matrix
 UNIT = 0
 REVERSED = 1
 BEGIN = 2
+QUARTERS = 3
 
 
 def _vector(row, start):
@@ -57,9 +58,17 @@ def motion(arm, target):
     return compose(T, inverse(home))
 
 
+def is_far_side_fixed(arm):
+    """Whether the target moves none of the axes from the second one on among themselves."""
+    begin = arm[8][BEGIN]
+    return begin == 0.0 or begin == 5.0
+
+
 def loop(arm, G, axes):
-    """Writes directions and points of the six axes in the order of the loop, its second axis's point
-    the origin, and returns the motion they make.
+    """Writes directions and points of the six axes in the order of the loop, the second axis the z
+    axis, and returns the motion they make.
+
+    e_begin ... e_5 e_0 ... = G, the axes that come first moved by G itself.
     """
     how = arm[8]
     unit = 1.0 / how[UNIT]
@@ -77,18 +86,23 @@ def loop(arm, G, axes):
         _store(axes[k], h, o)
     if is_reversed:
         G = inverse(G)
-    back = inverse(G)
-    for k in range(6 - begin, 6):
-        h = rotate(back, _direction(axes, k))
-        o = transform(back, point(axes, k))
-        _store(axes[k], h, o)
-    origin = point(axes, 1)
+    if begin > 0:
+        for k in range(6 - begin):
+            h = rotate(G, _direction(axes, k))
+            o = transform(G, point(axes, k))
+            _store(axes[k], h, o)
+    z = _direction(axes, 1)
+    x = across_of(z)
+    frame = make_pose((*x, *cross(z, x), *z), (0.0, 0.0, 0.0))
+    origin = rotate(frame, point(axes, 1))
+    frame = make_pose(nine(frame), scale(-1.0, origin))
     for k in range(6):
-        h = _direction(axes, k)
-        o = subtract(point(axes, k), origin)
+        h = rotate(frame, _direction(axes, k))
+        o = transform(frame, point(axes, k))
         _store(axes[k], h, scale(unit, o))
-    moved = subtract(transform(G, origin), origin)
-    return make_pose(nine(G), scale(unit, moved))
+    G = compose(compose(frame, G), inverse(frame))
+    shift = (G[9], G[10], G[11])
+    return make_pose(nine(G), scale(unit, shift))
 
 
 def _direction(axes, k):

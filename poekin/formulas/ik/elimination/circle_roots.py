@@ -16,18 +16,24 @@ from ... import elementary
 
 DEGREE = 8
 SAMPLES = 20
+COEFFICIENTS = 24
+"""Of a polynomial, then those that tell its noise, then zeros: a number that four divide."""
+ARCS = 8
+LENGTH = 2 * DEGREE + 1
 ROOM = 32
 """Most roots that are written."""
 
-_ARCS = 8
-_LENGTH = 2 * DEGREE + 1
 _DEPTH = 40  # halvings of an arc: 1e-12 rad
-SCRATCH = (_DEPTH + 2) * (_LENGTH + 2)
+SCRATCH = (_DEPTH + 2) * (LENGTH + 2)
 _SHORT = 0.5 ** (_DEPTH - 1)
-_START = 0.1234  # rad: no angle that an arm has of itself
+_START = 0.0923  # rad: no angle that an arm has of itself
+_OPPOSITE = (3, 4)  # arcs
 _NEAR = 1e-6  # rad: double roots that are one
-_STEPS = 60
-_HALF_ARC = pi / _ARCS
+STEPS = 60
+"""Most steps of Newton's rule."""
+FIELDS = 6
+_DONE = 1e-17
+_HALF_ARC = pi / ARCS
 
 
 def _polar_form(j, k):
@@ -49,59 +55,65 @@ def _polar_form(j, k):
     return x, y
 
 
-_PLACES = _LENGTH * (DEGREE + 1)
-_HALVES = 2 * _PLACES
+_PLACES = LENGTH * (DEGREE + 1)
 _TANGENT = elementary.sin(0.5 * _HALF_ARC) / elementary.cos(0.5 * _HALF_ARC)
 
 
-def _constants():
-    forms = [_polar_form(j, k) for j in range(_LENGTH) for k in range(DEGREE + 1)]
-    table = [x for x, _ in forms] + [y for _, y in forms]
-    for k in range(SAMPLES):
-        half = pi * k / SAMPLES
-        table.append(elementary.cos(half))
-        table.append(elementary.sin(half))
+def _polar_forms():
+    forms = [_polar_form(j, k) for j in range(LENGTH) for k in range(DEGREE + 1)]
+    return [x for x, _ in forms] + [y for _, y in forms]
+
+
+def _centre(arc):
+    return _START + (2 * arc + 1) * _HALF_ARC
+
+
+def _points(angles):
+    """Cosines of angles, then their sines."""
+    return [f(x) for f in (elementary.cos, elementary.sin) for x in angles]
+
+
+def _waves():
+    """What a value at each of the samples adds to each coefficient."""
+    share = 2.0 / SAMPLES
+    table = []
+    for j in range(SAMPLES):
+        row = [0.5 * share]
+        for k in range(1, DEGREE + 3):
+            angle = 2.0 * pi * (j * k % SAMPLES) / SAMPLES
+            row += [share * elementary.cos(angle), share * elementary.sin(angle)]
+        table += row + [0.0] * (COEFFICIENTS - len(row))
     return table
 
 
-TABLE = tuple(_constants())
-"""Numbers that the functions here take as `table`: the polar forms, real and imaginary parts, then
-(cos, sin) of half of each equally spaced angle.
-"""
+POLAR_FORMS = tuple(_polar_forms())
+"""The polar forms of e^{i k x}, real parts, then imaginary ones."""
+CENTRES = tuple(_points([_centre(arc) for arc in range(ARCS)]))
+HALVES = tuple(_points([pi * k / SAMPLES for k in range(SAMPLES)]))
+"""Cosines, then sines, of half of each equally spaced angle."""
+WAVES = tuple(_waves())
 
 
-def half_of_sample(table, k):
-    """(cos, sin) of half the k-th of the equally spaced angles."""
-    at = _HALVES + 2 * k
-    return table[at], table[at + 1]
-
-
-def fourier(table, values, f):
-    """Writes a_0, a_1, b_1, ..., a_8, b_8 of a polynomial with given values at the samples, and
-    returns its noise: the size of what it cannot hold, the next coefficients.
+def fourier(waves, values, f, width):
+    """Writes a_0, a_1, b_1, ..., a_8, b_8 of a polynomial with given values at the samples, then the
+    next coefficients, which it cannot hold: its noise. `waves` is `WAVES` in rows of `width`.
     """
+    for k in range(width):
+        total = values[0] * waves[k]
+        for j in range(1, SAMPLES):
+            total += values[j] * waves[width * j + k]
+        f[k] = total
+
+
+def size_and_noise(f):
+    """The largest coefficient, and the largest of those that tell the noise."""
+    size = 0.0
+    for k in range(LENGTH):
+        size = max(size, abs(f[k]))
     noise = 0.0
-    for k in range(DEGREE + 3):
-        a = 0.0
-        b = 0.0
-        for j in range(SAMPLES):
-            at = 2 * j * k % (2 * SAMPLES)
-            c, s = half_of_sample(table, at % SAMPLES)
-            if at >= SAMPLES:
-                c = -c
-                s = -s
-            a += c * values[j]
-            b += s * values[j]
-        a *= 2.0 / SAMPLES
-        b *= 2.0 / SAMPLES
-        if k == 0:
-            f[0] = 0.5 * a
-        elif k <= DEGREE:
-            f[2 * k - 1] = a
-            f[2 * k] = b
-        else:
-            noise = max(noise, abs(a), abs(b))
-    return noise
+    for k in range(LENGTH, COEFFICIENTS):
+        noise = max(noise, abs(f[k]))
+    return size, noise
 
 
 def value_and_slope(f, c, s):
@@ -121,79 +133,89 @@ def value_and_slope(f, c, s):
     return value, slope
 
 
-def collect(table, f, noise, scratch, found):
-    """Writes the roots, angle and slope each, the slope as a share of the largest that the
-    coefficients allow, and returns their number.
-
-    `scratch` has room for SCRATCH numbers, `found` for 2 ROOM.
-    """
-    steepest = 0.0
+def steepest(f):
+    """The largest slope that the coefficients allow."""
+    total = 0.0
     for k in range(1, DEGREE + 1):
         a = f[2 * k - 1]
         b = f[2 * k]
-        steepest += k * elementary.sqrt(a * a + b * b)
+        total += k * elementary.sqrt(a * a + b * b)
+    return total
+
+
+def on_arcs(forms, centres, f, b, width):
+    """Writes the coefficients on each arc, the arcs in rows of `width`: `forms` is `POLAR_FORMS`,
+    and `centres` is `CENTRES`.
+    """
+    for arc in range(width):
+        c = centres[arc]
+        s = centres[width + arc]
+        x = c
+        y = s
+        for j in range(LENGTH):
+            b[width * j + arc] = f[0] * forms[(DEGREE + 1) * j]
+        for k in range(1, DEGREE + 1):
+            even = f[2 * k - 1]
+            odd = f[2 * k]
+            p = even * x + odd * y
+            q = odd * x - even * y
+            turned = x * c - y * s
+            y = x * s + y * c
+            x = turned
+            for j in range(DEGREE + 1):
+                at = (DEGREE + 1) * j + k
+                along = p * forms[at]
+                across = q * forms[_PLACES + at]
+                # the second end for the first one: the conjugate
+                first = width * j + arc
+                last = width * (2 * DEGREE - j) + arc
+                b[first] = b[first] + along + across
+                if j < DEGREE:
+                    b[last] = b[last] + along - across
+
+
+def brackets(coefficients, noise, segments, found, is_whole):
+    """Writes where each root is, and returns the number of roots: the segment of an arc, as tangents
+    of half the angle from the arc's centre, a first guess and the sign at the segment's beginning.
+
+    Only those on the whole circle are between 2.45 and 4.01 rad.
+    `coefficients` are those on the arcs, in rows of `ARCS`, and `found` is rows of `ROOM`, one for
+    each of `FIELDS`; `segments` has room for SCRATCH numbers.
+    """
     count = 0
-    for arc in range(_ARCS):
-        centre = _START + (2 * arc + 1) * _HALF_ARC
-        _bernstein(table, f, centre, scratch)
-        count = _on_arc(f, centre, noise, scratch, found, count)
-    if count > 1 and found[2 * count - 2] - found[0] > 2.0 * pi - _NEAR:
+    for arc in range(ARCS):
+        for j in range(LENGTH):
+            segments[j] = coefficients[ARCS * j + arc]
+        segments[LENGTH] = 0.0
+        segments[LENGTH + 1] = 1.0
+        if is_whole or arc not in _OPPOSITE:
+            count = _on_arc(arc, noise, segments, found, count)
+    if count > 1 and _apart(found, 0, count - 1) <= _NEAR:
         count -= 1  # the same root at the circle's beginning and end
-    for i in range(count):
-        x = found[2 * i]
-        _, slope = value_and_slope(f, elementary.cos(x), elementary.sin(x))
-        found[2 * i + 1] = abs(slope) / steepest
     return count
 
 
-def _bernstein(table, f, centre, b):
-    """The coefficients on the arc around an angle, and its ends 0 and 1 along the chord."""
-    c = elementary.cos(centre)
-    s = elementary.sin(centre)
-    for j in range(_LENGTH):
-        b[j] = f[0] * table[(DEGREE + 1) * j]
-    x = c
-    y = s
-    for k in range(1, DEGREE + 1):
-        even = f[2 * k - 1]
-        odd = f[2 * k]
-        p = even * x + odd * y
-        q = odd * x - even * y
-        for j in range(_LENGTH):
-            at = (DEGREE + 1) * j + k
-            b[j] += p * table[at] + q * table[_PLACES + at]
-        turned = x * c - y * s
-        y = x * s + y * c
-        x = turned
-    b[_LENGTH] = 0.0
-    b[_LENGTH + 1] = 1.0
-
-
-def _angle(centre, t):
-    return centre + 2.0 * elementary.atan2((2.0 * t - 1.0) * _TANGENT, 1.0)
-
-
-def _on_arc(f, centre, noise, stack, found, count):
+def _on_arc(arc, noise, stack, found, count):
     """Adds the roots of an arc whose coefficients are the first on the stack."""
     left = 1
     while left > 0 and count < ROOM:
         left -= 1
-        at = left * (_LENGTH + 2)
+        at = left * (LENGTH + 2)
         changes, small = _signs(stack, at, noise)
-        low = stack[at + _LENGTH]
-        high = stack[at + _LENGTH + 1]
-        if small == _LENGTH or (high - low <= _SHORT and changes + small > 0):
-            x = _angle(centre, 0.5 * (low + high))
-            first = _angle(centre, low)
-            last = _angle(centre, high)
-            width = 2.0 * (last - first)
-            if count == 0 or x - found[2 * count - 2] > max(_NEAR, width):
-                found[2 * count] = x
+        low = stack[at + LENGTH]
+        high = stack[at + LENGTH + 1]
+        if small == LENGTH or (high - low <= _SHORT and changes + small > 0):
+            middle = _tangent(0.5 * (low + high))
+            _put(found, count, arc, (middle, middle, middle, 0.0))
+            near = max(_NEAR, 8.0 * _TANGENT * (high - low))
+            if count == 0 or _apart(found, count - 1, count) > near:
                 count += 1
         elif small == 0 and changes == 1:
-            first = _angle(centre, low)
-            last = _angle(centre, high)
-            found[2 * count] = _bracketed(f, first, last)
+            guess = low + (high - low) * _crossing(stack, at)
+            sign = 1.0
+            if stack[at] < 0.0:
+                sign = -1.0
+            _put(found, count, arc, (_tangent(low), _tangent(high), _tangent(guess), sign))
             count += 1
         elif changes + small > 0:
             _halve(stack, at)
@@ -201,12 +223,77 @@ def _on_arc(f, centre, noise, stack, found, count):
     return count
 
 
+def _tangent(t):
+    return (2.0 * t - 1.0) * _TANGENT
+
+
+def _put(found, k, arc, bracket):
+    half = 0.5 * _centre(arc)
+    found[k] = elementary.cos(half)
+    found[ROOM + k] = elementary.sin(half)
+    for i in range(4):
+        found[ROOM * (2 + i) + k] = bracket[i]
+
+
+def _apart(found, i, k):
+    """Angle between two roots, twice the sine of half of it."""
+    a, b = half_of_root(found, i, ROOM)
+    c, d = half_of_root(found, k, ROOM)
+    return 2.0 * abs(a * d - b * c)
+
+
+def half_of_root(found, k, width):
+    """(cos, sin) of half the k-th root in rows of `width`, as long as they are near the centre."""
+    c = found[k]
+    s = found[width + k]
+    t = found[4 * width + k]
+    return c - s * t, s + c * t
+
+
+def newton(f, found, k, width):
+    """One step of Newton's rule on the k-th root in rows of `width`, halving where it leads out of
+    the segment. Returns the step and the slope before it, by angles.
+    """
+    C, S = half_of_root(found, k, width)
+    size = 1.0 / (C * C + S * S)
+    c = (C * C - S * S) * size
+    s = 2.0 * C * S * size
+    value, slope = value_and_slope(f, c, s)
+    t = found[4 * width + k]
+    side = value * found[5 * width + k]
+    low = elementary.where_less(0.0, side, t, found[2 * width + k])
+    high = elementary.where_less(0.0, side, found[3 * width + k], t)
+    found[2 * width + k] = low
+    found[3 * width + k] = high
+    rate = 2.0 * size * slope
+    end = t - value / elementary.where_less(0.0, abs(rate), rate, 1.0)
+    middle = 0.5 * (low + high)
+    end = elementary.where_less(end, low, middle, end)
+    end = elementary.where_less(high, end, middle, end)
+    found[4 * width + k] = end
+    return 2.0 * size * (end - t), slope
+
+
+def is_found(step, slope, steepest):
+    """Whether a step is the last: of half its square, f'' over the slope is left."""
+    return abs(step) <= 1e-15 or DEGREE * steepest * step * step <= _DONE * abs(slope)
+
+
+def _crossing(b, at):
+    """Where coefficients with one change of sign pass 0, as a share of their segment."""
+    j = 1
+    while b[at + j] * b[at] > 0.0:
+        j += 1
+    last = b[at + j - 1]
+    return (j - 1 + last / (last - b[at + j])) / (LENGTH - 1)
+
+
 def _signs(b, at, noise):
     """Changes of sign among coefficients, and how many are within the noise."""
     changes = 0
     small = 0
     last = 0.0
-    for j in range(_LENGTH):
+    for j in range(LENGTH):
         value = b[at + j]
         if abs(value) <= noise:
             small += 1
@@ -219,40 +306,15 @@ def _signs(b, at, noise):
 
 def _halve(b, at):
     """The second half in the place of a segment, and the first half above it (de Casteljau)."""
-    above = at + _LENGTH + 2
-    for j in range(_LENGTH):
+    above = at + LENGTH + 2
+    for j in range(LENGTH):
         b[above + j] = b[at]
-        for i in range(_LENGTH - 1 - j):
+        for i in range(LENGTH - 1 - j):
             b[at + i] = 0.5 * (b[at + i] + b[at + i + 1])
-    low = b[at + _LENGTH]
-    high = b[at + _LENGTH + 1]
+    low = b[at + LENGTH]
+    high = b[at + LENGTH + 1]
     middle = 0.5 * (low + high)
-    b[above + _LENGTH] = low
-    b[above + _LENGTH + 1] = middle
-    b[at + _LENGTH] = middle
-    b[at + _LENGTH + 1] = high
-
-
-def _bracketed(f, low, high):
-    """The root between two angles where f has opposite signs: Newton's rule, halving where it leads
-    out.
-    """
-    first, _ = value_and_slope(f, elementary.cos(low), elementary.sin(low))
-    x = 0.5 * (low + high)
-    for _ in range(_STEPS):
-        value, slope = value_and_slope(f, elementary.cos(x), elementary.sin(x))
-        if value == 0.0:
-            return x
-        if (value < 0.0) == (first < 0.0):
-            low = x
-        else:
-            high = x
-        last = x
-        x = 0.5 * (low + high)
-        if slope != 0.0:
-            newton = last - value / slope
-            if low < newton < high:
-                x = newton
-        if abs(x - last) <= 1e-15:
-            break
-    return x
+    b[above + LENGTH] = low
+    b[above + LENGTH + 1] = middle
+    b[at + LENGTH] = middle
+    b[at + LENGTH + 1] = high

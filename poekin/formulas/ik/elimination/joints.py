@@ -1,6 +1,6 @@
 """The other five angles, of one angle and the products of two.
 
-Of the vector v of products C_4^(3-a) S_4^a C_5^(2-b) S_5^b its largest column tells x_4, its largest
+Of the vector v of products C_4^(3-a) S_4^a C_5^(2-b) S_5^b its longest column tells x_4, its longest
 row x_5. Then the line L_6 is known as the second joint sees it, p and d, and four equations are
 linear in the point of x_2, W and d_0 the line's place and direction seen from the first joint's point:
 
@@ -15,15 +15,15 @@ Raghavan and Roth 1993.
 from ....algebra import add, cross, dot, rotate, subtract
 from ... import elementary
 from ..position import turned_component
-from ..rotation_onto import rotated, rotation_onto
+from ..rotation_onto import rotated
 
 
 def unit(c, s):
     """A point brought to the circle."""
     length = elementary.sqrt(c * c + s * s)
-    if length > 0.0:
-        return c / length, s / length
-    return 1.0 + length, length
+    divisor = elementary.where_less(0.0, length, length, 1.0)
+    c = elementary.where_less(0.0, length, c, 1.0)
+    return c / divisor, s / divisor
 
 
 def doubled(C, S):
@@ -35,35 +35,38 @@ def doubled(C, S):
 
 def outer(v):
     """(c, s) of x_4 and of x_5 of a vector of products."""
-    row = 0
-    column = 0
-    most = 0.0
-    for i in range(12):
-        size = abs(v[i])
-        if size > most:
-            most = size
-            row = i // 3
-            column = i % 3
-    upper = column + 3
-    lower = column + 6
-    last = column + 9
-    if abs(v[column]) >= abs(v[last]):
-        c4, s4 = doubled(v[column], v[upper])
-    else:
-        c4, s4 = doubled(v[lower], v[last])
-    left = 3 * row
-    middle = left + 1
-    right = left + 2
-    if abs(v[left]) >= abs(v[right]):
-        c5, s5 = doubled(v[left], v[middle])
-    else:
-        c5, s5 = doubled(v[middle], v[right])
+    column = (v[0], v[3], v[6], v[9])
+    for k in range(1, 3):
+        column = _longer(column, (v[k], v[k + 3], v[k + 6], v[k + 9]))
+    row = (v[0], v[1], v[1], v[2])
+    for k in range(3, 12, 3):
+        row = _longer(row, (v[k], v[k + 1], v[k + 1], v[k + 2]))
+    c4, s4 = _ratio(column)
+    c5, s5 = _ratio(row)
     return (
         c4,
         s4,
         c5,
         s5,
     )
+
+
+def _longer(a, b):
+    p = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + a[3] * a[3]
+    q = b[0] * b[0] + b[1] * b[1] + b[2] * b[2] + b[3] * b[3]
+    return (
+        elementary.where_less(p, q, b[0], a[0]),
+        elementary.where_less(p, q, b[1], a[1]),
+        elementary.where_less(p, q, b[2], a[2]),
+        elementary.where_less(p, q, b[3], a[3]),
+    )
+
+
+def _ratio(a):
+    """The point of twice the angle of the first two numbers, or of the last two if these are larger."""
+    C = elementary.where_less(abs(a[0]), abs(a[3]), a[2], a[0])
+    S = elementary.where_less(abs(a[0]), abs(a[3]), a[3], a[1])
+    return doubled(C, S)
 
 
 def second(h, P, W, d0, p, d):
@@ -98,9 +101,7 @@ def second(h, P, W, d0, p, d):
     c, s = unit(x, y)
     det = aa * bb - ab * ab
     size = 0.5 * (aa + bb)
-    told = size
-    if size > 0.0:
-        told = det / (size * size)
+    told = det / elementary.where_less(0.0, size, size * size, 1.0)
     return (
         c,
         s,
@@ -114,8 +115,9 @@ def _row(w, k, a, value):
 
 
 def every(h, P, W, d0, G, across, points):
-    """(c, s) of x_1 ... x_6, and how well x_2 is told; points are those of x_3, x_4 and x_5, G the
-    rotation that all make, and `across` a vector across the sixth axis.
+    """(c, s) of x_1 ... x_6, how well x_2 is told, and how far the last line is from where it should
+    be, point and direction; points are those of x_3, x_4 and x_5, G the rotation that all make, and
+    `across` a vector across the sixth axis.
     """
     c3, s3, c4, s4, c5, s5 = points
     d = rotated(h[4], c5, s5, h[5])
@@ -128,14 +130,19 @@ def every(h, P, W, d0, G, across, points):
     c2, s2, told = second(h, P, W, d0, p, d)
     place = rotated(h[1], c2, s2, p)
     way = rotated(h[1], c2, s2, d)
-    c1, s1 = first(h[0], add(P[0], place), W, way, d0)
+    place = add(P[0], place)
+    c1, s1 = first(h[0], place, W, way, d0)
+    off = subtract(rotated(h[0], c1, s1, place), W)
+    turned = subtract(rotated(h[0], c1, s1, way), d0)
+    gap = elementary.sqrt(dot(off, off) + dot(turned, turned))
     rest = rotate(G, across)
     rest = rotated(h[0], c1, -s1, rest)
     rest = rotated(h[1], c2, -s2, rest)
     rest = rotated(h[2], c3, -s3, rest)
     rest = rotated(h[3], c4, -s4, rest)
     rest = rotated(h[4], c5, -s5, rest)
-    c6, s6, _ = rotation_onto(h[5], across, rest)
+    side = cross(h[5], across)
+    c6, s6 = unit(dot(side, cross(h[5], rest)), dot(side, rest))
     angles = (
         c1,
         s1,
@@ -150,7 +157,7 @@ def every(h, P, W, d0, G, across, points):
         c6,
         s6,
     )
-    return angles, told
+    return angles, told, gap
 
 
 def first(h, p, W, d, d0):

@@ -1,4 +1,4 @@
-"""Six orthonormal rows across eight columns of fourteen numbers, by Householder's reflections.
+"""Orthonormal rows across columns of numbers, by Householder's reflections.
 
 Accuracy: rounding, u times the rows' number (tests/formulas/ik/elimination/test_null_rows.py).
 Source: Golub and Van Loan 2013, Section 5.2.
@@ -6,35 +6,31 @@ Source: Golub and Van Loan 2013, Section 5.2.
 
 from ... import elementary
 
-_LENGTH = 14
-_COLUMNS = 8
-_ROWS = 6
 
-
-def fill(B):
-    """Six rows are written behind eight columns and one more, of fourteen numbers each; the columns
-    are lost.
+def fill(B, start, length, columns):
+    """As many rows as the columns leave are written behind them; the columns, which begin at a
+    place and have `length` numbers each, are lost.
     """
-    for j in range(_COLUMNS):
-        _reflector(B, j)
-        for k in range(j + 1, _COLUMNS):
-            _reflect(B, j, _LENGTH * k)
-    for r in range(_ROWS):
-        at = _LENGTH * (_COLUMNS + 1 + r)
-        for m in range(_LENGTH):
+    for j in range(columns):
+        _reflector(B, start, length, j)
+        for k in range(j + 1, columns):
+            _reflect(B, start, length, j, start + length * k)
+    for r in range(columns, length):
+        at = start + length * r
+        for m in range(length):
             B[at + m] = 0.0
-        B[at + _COLUMNS + r] = 1.0
-        for j in range(_COLUMNS - 1, -1, -1):
-            _reflect(B, j, at)
+        B[at + r] = 1.0
+        for j in range(columns - 1, -1, -1):
+            _reflect(B, start, length, j, at)
 
 
-def _reflector(B, j):
+def _reflector(B, start, length, j):
     """The j-th column becomes the vector v of a reflection 1 - v v^T that leaves its first j and one
     numbers, v . v = 2; v = 0 where the rest of the column is 0.
     """
-    at = _LENGTH * j
+    at = start + length * j
     total = 0.0
-    for m in range(j, _LENGTH):
+    for m in range(j, length):
         total += B[at + m] * B[at + m]
     size = elementary.sqrt(total)
     if B[at + j] < 0.0:
@@ -42,15 +38,16 @@ def _reflector(B, j):
     B[at + j] += size
     norm = elementary.sqrt(size * B[at + j])
     if norm > 0.0:
-        for m in range(j, _LENGTH):
-            B[at + m] /= norm
+        share = 1.0 / norm
+        for m in range(j, length):
+            B[at + m] *= share
 
 
-def _reflect(B, j, at):
+def _reflect(B, start, length, j, at):
     """One reflection of the column that begins at a place."""
-    v = _LENGTH * j
+    v = start + length * j
     along = 0.0
-    for m in range(j, _LENGTH):
+    for m in range(j, length):
         along += B[v + m] * B[at + m]
-    for m in range(j, _LENGTH):
+    for m in range(j, length):
         B[at + m] -= along * B[v + m]

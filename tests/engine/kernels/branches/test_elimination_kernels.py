@@ -16,20 +16,20 @@ def chain(seed):
     return pk.Chain(np.hstack([h, np.cross(rng.normal(size=(6, 3)), h)]), home, frame="space")
 
 
-def table(arm, reverse, begin):
+def table(arm, reverse, begin, by_quarters=0):
     form = arm.to_hp()
     rows = np.zeros((9, 9))
     rows[:6, :3] = form.H
     rows[:7, 3:6] = form.P
     rows[7] = form.R_nt.ravel()
-    rows[8, :3] = (2.0, reverse, begin)
+    rows[8, :4] = (2.0, reverse, begin, by_quarters)
     return rows
 
 
-def solved(arm, T, reverse, begin):
+def solved(arm, T, *how):
     rows = np.full((len(T), elimination_kernels.MOST, 7), np.nan)
     counts = np.empty((len(T), 2))
-    elimination_kernels.eliminated.call(table(arm, reverse, begin), T, rows, counts)
+    elimination_kernels.eliminated.call(table(arm, *how), T, rows, counts)
     return rows, counts
 
 
@@ -52,3 +52,40 @@ def test_a_loop_whose_first_axes_meet_is_said_to_degenerate():
     rows, counts = solved(arm, T, 0, 0)
     assert counts[0, 0] == elimination_kernels.DEGENERATE
     assert (rows[..., 6] == -1).all()
+
+
+def test_plain_python_which_takes_one_number_at_once_finds_the_same():
+    arm = chain(4)
+    T = arm.fk(np.random.default_rng(0).uniform(-np.pi, np.pi, (3, 6)))
+    rows, counts = solved(arm, T, 1, 2)
+    others = np.full_like(rows, np.nan)
+    other_counts = np.empty_like(counts)
+    elimination_kernels.eliminated.function(table(arm, 1, 2), T, others, other_counts)
+    np.testing.assert_array_equal(counts, other_counts)
+    known = rows[:, :, 6] >= 0
+    # each within 1e-7 of its pose, to which Newton's rule has come quadratically
+    np.testing.assert_allclose(others[known], rows[known], atol=1e-6)
+
+
+def test_a_target_that_is_not_finite_has_no_solution_and_leaves_the_others_alone():
+    arm = chain(4)
+    T = arm.fk(np.random.default_rng(0).uniform(-np.pi, np.pi, (3, 6)))
+    rows, _ = solved(arm, T, 0, 0)
+    broken = T.copy()
+    broken[0] = np.nan
+    others, other_counts = solved(arm, broken, 0, 0)
+    assert other_counts[0].tolist() == [elimination_kernels.DEGENERATE, 1.0]
+    np.testing.assert_array_equal(others[1:], rows[1:])
+
+
+def test_quarters_of_the_circle_tell_what_the_whole_is_not_sure_of():
+    arm = pk.load("jaco").chain()
+    q = np.random.default_rng(0).uniform(-np.pi, np.pi, (400, 6))
+    T = arm.fk(q)
+    _, whole = solved(arm, T, 1, 5)
+    rows, counts = solved(arm, T, 1, 5, 1)
+    told = (whole[:, 1] == 1) & (counts[:, 1] == 0)
+    assert told.sum() > 20
+    off = np.abs((rows[..., :6] - q[:, None] + np.pi) % (2 * np.pi) - np.pi).max(axis=2)
+    off = np.where(rows[..., 6] >= 0, off, np.inf).min(axis=1)
+    assert (off[counts[:, 1] == 0] < 1e-6).all()

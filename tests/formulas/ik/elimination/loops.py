@@ -7,9 +7,10 @@ from poekin.groups import so3
 
 
 def arm(seed):
-    """Axes, steps, angles and the rotation of each joint."""
+    """Axes, the second the z axis, steps, angles and the rotation of each joint."""
     rng = np.random.default_rng(seed)
     h = rng.normal(size=(6, 3))
+    h[1] = (0, 0, 1)
     h /= np.linalg.norm(h, axis=1, keepdims=True)
     x = rng.uniform(-np.pi, np.pi, 6)
     return h, rng.normal(size=(5, 3)), x, so3.exp(h * x[:, None])
@@ -31,11 +32,17 @@ def tuples(a):
 
 
 def equations(h, P, p, d):
-    sigma = [0.0] * 162
-    line_equations.eliminate(
-        tuples(h), tuples(P), tuple(map(float, p)), tuple(map(float, d)), [0.0] * 210, sigma
-    )
-    return np.array(sigma).reshape(6, 3, 3, 3)
+    """The six equations (6, 3, 3, 3) by their coefficients, and as they are written."""
+    near = [0.0] * line_equations.NEAR_SIDE
+    far = [0.0] * line_equations.FAR_SIDE
+    sigma = [0.0] * (6 * line_equations.ROOM)
+    h = tuples(h)
+    P = tuples(P)
+    line_equations.far_side(h, P, far, near)
+    line_equations.near_side(h[0], P[0], tuple(map(float, p)), tuple(map(float, d)), near)
+    line_equations.combine(near, far, line_equations.ROOM, sigma)
+    rows = np.array(sigma).reshape(6, line_equations.ROOM)
+    return rows[:, :27].reshape(6, 3, 3, 3), sigma
 
 
 def halves(x):

@@ -27,10 +27,13 @@ def test_three_angles_tell_the_other_three(seed):
     R = np.linalg.multi_dot(E)
     across = np.cross(h[5], [0.3, -0.8, 0.5])
     points = tuple(f(x[i]) for i in (2, 3, 4) for f in (np.cos, np.sin))
-    found, told = joints.every(
-        tuples(h), tuples(P), tuple(p), tuple(d), tuple(R.ravel()), tuple(across), points
-    )
+    loop = (tuples(h), tuples(P), tuple(p), tuple(d), tuple(R.ravel()), tuple(across))
+    found, told, gap = joints.every(*loop, points)
     expected = np.stack([np.cos(x), np.sin(x)], axis=1).ravel()
     # normal equations: rounding of squares of lengths over their determinant
     size = (1 + np.linalg.norm(p)) ** 2
     assert np.abs(np.array(found) - expected).max() <= 1e-14 * size**2 / told
+    assert gap <= 1e-14 * size**2 / told
+    # at other angles the line is elsewhere
+    turned = (*points[:4], *(np.cos(x[4] + 0.1), np.sin(x[4] + 0.1)))
+    assert joints.every(*loop, turned)[2] > 1e-6

@@ -1,0 +1,1 @@
+"""Several numbers at once, as one scalar of compiled code."""

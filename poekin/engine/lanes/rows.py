@@ -1,0 +1,15 @@
+"""Four numbers at once: a scalar of compiled code in which a formula runs for all of them together.
+
+A formula that chooses by `elementary.where_less` instead of branching takes such a scalar, and rows
+of such scalars, as it takes numbers and rows of numbers. Plain Python takes one at once.
+"""
+
+
+def at_once():
+    """How many numbers a scalar of `rows` holds."""
+    return 1
+
+
+def rows(array):
+    """An array (n,) of numbers as n / `at_once()` scalars."""
+    return array
