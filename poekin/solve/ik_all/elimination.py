@@ -78,14 +78,19 @@ class Elimination:
         """
         tables = self.tables[:_TABLES]
         found = _rows(tables[0], T)
+        others = []
         for table in (*tables[1:], *map(_by_quarters, tables)):
             unsure = np.flatnonzero(~found.sure)
             if not len(unsure):
                 break
             other = _rows(table, T[unsure])
-            _join(found, unsure[~other.sure], other, ~other.sure)
+            others.append((unsure, other))
             for whole, part in zip(found, other, strict=True):
                 whole[unsure[other.sure]] = part[other.sure]
+        for unsure, other in others:
+            own = ~found.sure[unsure]
+            if own.any():
+                _join(found, unsure[own], other, own)
         return found
 
 
