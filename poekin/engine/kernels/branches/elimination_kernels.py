@@ -239,16 +239,20 @@ def fill(arm, target, rows, scratch, is_first):
         line_equations.ROOM // lanes.at_once(),
         lanes.rows(scratch.sigma),
     )
-    count, unsure, is_flat = _pass(arm, one, _WHOLE, scratch, rows, 0)
-    unsure = unsure or is_flat
-    if is_flat and arm[8, QUARTERS] != 0.0:
-        count = 0
-        unsure = False
-        for k in range(4):
+    count = 0
+    unsure = False
+    for k in range(5):
+        view = _WHOLE
+        if k > 0:
             half = 0.25 * math.pi * k
             view = (math.cos(half), math.sin(half), _STRETCH)
-            count, doubtful, is_flat = _pass(arm, one, view, scratch, rows, count)
-            unsure = unsure or doubtful or is_flat
+        count, doubtful, is_flat = _pass(arm, one, view, scratch, rows, count)
+        unsure = unsure or doubtful or is_flat
+        if k == 0:
+            if not is_flat or arm[8, QUARTERS] == 0.0:
+                break
+            count = 0
+            unsure = False
     for k in range(max(count, 0), rows.shape[0]):
         rows[k, 6] = -1.0
     return count, unsure or count < 0 or count % 2 != 0
