@@ -68,14 +68,14 @@ def solvers_for(
     for row in rows:
         locked = np.full(chain.dof, np.nan)
         locked[~free] = row[: np.count_nonzero(~free)]
-        each.append(_solvers(free_chain(chain, locked), method))
+        each.append(solvers_of(free_chain(chain, locked), method))
     # of an arm that needs a search all do
     return [Solvers(stage, which) for stage in zip(*each, strict=False)]
 
 
-def _solvers(chain: Chain, method: Method) -> tuple[Solver, ...]:
+def solvers_of(chain: Chain, method: Method) -> tuple[Solver, ...]:
     """The closed form or elimination to use: where the closed form is that of a near arm, both; none
-    for the search.
+    for the search. Raises: InputError.
     """
     closed = None
     eliminated = None

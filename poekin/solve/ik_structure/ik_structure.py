@@ -12,6 +12,7 @@ from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, chain_of
 from ...model.sampling import joint_ratios
 from ..ik_all.nearest.nearest_arm import NearestArm, configurations, nearest_arm
+from ..ik_all.sources import solvers_of
 from ..ik_all.structure import MOST_JOINTS, Family, Misfit, all_misfits, misfits
 from .neighbours import intersecting, locked, parallel
 from .result import Assumption, IKKind, IKStructure, LockedStructure, axes_of, degrees, mm
@@ -35,9 +36,8 @@ def ik_structure(chain: Arm) -> IKStructure:
     """Family of an arm's inverse kinematics, what is assumed, and what would make it closed.
 
     An arm of six joints has a closed form where three consecutive axes meet in a point or are
-    parallel. Where they nearly do, the solutions of the nearest such arm are continued to the given
-    one. Else one joint is sampled where two neighbouring axes intersect at an end of the arm or are
-    parallel, and two joints of other arms.
+    parallel. Where they nearly do, the nearest such arm and its distance are said. Six revolute
+    joints of any geometry are solved by elimination.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def ik_structure(chain: Arm) -> IKStructure:
     whose nearest arm has the least mean square pose difference is taken.
     Accuracy: the bounds hold for all coordinates of joints that turn, and within the limits of
     joints that slide (tests/solve/ik_all/nearest/test_pose_bound.py).
-    Source: Pieper 1968; Elias and Wen 2025 for the arms that need a search.
+    Source: Pieper 1968; Raghavan and Roth 1993 for the elimination.
 
     Examples
     --------
@@ -83,17 +83,21 @@ def ik_structure(chain: Arm) -> IKStructure:
         raise InputError("ik_structure: expected an arm with joints, the chain has none")
     slides = zip(chain.joint_names, chain.kinds, strict=True)
     prismatic = tuple(name for name, kind in slides if kind == "prismatic")
-    return replace(_structure(chain), prismatic=prismatic)
+    found = _structure(chain)
+    if found.method != "lock":
+        solvers = solvers_of(chain, "auto")
+        found = replace(found, method=solvers[0].method if solvers else "search")
+    return replace(found, prismatic=prismatic)
 
 
 def _structure(chain: Chain) -> IKStructure:
     C = chain.nontrivial_coupling
     if C is not None and np.linalg.matrix_rank(C / joint_ratios(chain)) < len(chain.kinds):
-        return IKStructure("coupled joints", "search", hint=_COUPLED)
+        return IKStructure("coupled joints", hint=_COUPLED)
     if chain.dof > MOST_JOINTS:
         return _redundant(chain)
     if _singular_everywhere(chain):
-        return IKStructure("singular everywhere", "search", hint=_SINGULAR)
+        return IKStructure("singular everywhere", hint=_SINGULAR)
     near = misfits(chain, NEAR_ANGLE, NEAR_DISTANCE * chain.reach)
     if near and near[0].exact:
         return _closed(chain, near[0].family)
@@ -102,8 +106,8 @@ def _structure(chain: Chain) -> IKStructure:
         if padded is not None:
             return padded
     if near:
-        return _continued(chain, near)
-    return _searched(chain)
+        return _near(chain, near)
+    return _general(chain)
 
 
 _COUPLED = (
@@ -128,7 +132,6 @@ def _closed(chain: Chain, family: Family) -> IKStructure:
     """Structure of an arm that belongs to a family to rounding."""
     return IKStructure(
         kind=_kind(family, len(chain.kinds)),
-        method="closed form",
         joints=_numbers(family),
         reversed=family.reversed,
         first_joints=_first_joints(chain, family),
@@ -136,7 +139,7 @@ def _closed(chain: Chain, family: Family) -> IKStructure:
     )
 
 
-def _continued(chain: Chain, near: list[Misfit]) -> IKStructure:
+def _near(chain: Chain, near: list[Misfit]) -> IKStructure:
     """Structure of an arm that nearly belongs to families: of the nearest arm."""
     arms = [nearest_arm(chain, misfit.family) for misfit in near]
     best = min(range(len(near)), key=lambda k: arms[k].rms)
@@ -144,7 +147,6 @@ def _continued(chain: Chain, near: list[Misfit]) -> IKStructure:
     closed = _closed(nearest.chain, nearest.family)
     return replace(
         closed,
-        method="continuation",
         exact=False,
         assumptions=(_assumption(near[best]),),
         nearest=nearest.chain,
@@ -170,7 +172,6 @@ def _padded(chain: Chain) -> IKStructure | None:
             continue
         return IKStructure(
             kind="fewer than six joints",
-            method="closed form",
             joints=tuple(i + 1 for i in joints),
             reversed=turned,
             fictitious=MOST_JOINTS - n,
@@ -178,12 +179,11 @@ def _padded(chain: Chain) -> IKStructure | None:
     return None
 
 
-def _searched(chain: Chain) -> IKStructure:
-    """Structure of an arm whose one or two joints are sampled."""
+def _general(chain: Chain) -> IKStructure:
+    """Structure of an arm of which no three axes meet or are parallel, nearly or to rounding."""
     n = len(chain.kinds)
     found = IKStructure(
         "general",
-        "two-dimensional search",
         hint=_closest(chain),
         fictitious=MOST_JOINTS - n,
     )
@@ -193,7 +193,6 @@ def _searched(chain: Chain) -> IKStructure:
             return replace(
                 found,
                 kind="two axes intersect",
-                method="one-dimensional search",
                 joints=(i + 1, i + 2),
                 reversed=turned,
             )
@@ -202,7 +201,6 @@ def _searched(chain: Chain) -> IKStructure:
             return replace(
                 found,
                 kind="two parallel axes",
-                method="one-dimensional search",
                 joints=(i + 1, i + 2),
             )
     return found
@@ -219,7 +217,7 @@ def _redundant(chain: Chain) -> IKStructure:
         return IKStructure("redundant", "lock", exact=False, locked=each)
     # a quartic last; of equals the joint nearest to the tip
     best = max(closed, key=lambda one: (one.exact, one.first_joints != QUARTIC, each.index(one)))
-    way = "closed form" if best.exact else "closed form of the nearest arm, and continuation,"
+    way = "closed form" if best.exact else "elimination"
     hint = f"{way} with {quote(best.joint)} locked"
     centres = {
         one.joints for one in closed if one.kind in ("spherical wrist", "spherical shoulder")
@@ -252,11 +250,11 @@ def _renumbered(first_joints: str, k: int) -> str:
 def _structure_of_locked(chain: Chain) -> IKStructure:
     """Structure of six joints, without the nearest arm."""
     if _singular_everywhere(chain):
-        return IKStructure("singular everywhere", "search")
+        return IKStructure("singular everywhere")
     near = misfits(chain, NEAR_ANGLE, NEAR_DISTANCE * chain.reach)
     if near:
         return replace(_closed(chain, near[0].family), exact=near[0].exact)
-    return _searched(chain)
+    return _general(chain)
 
 
 def _kind(family: Family, n: int) -> IKKind:

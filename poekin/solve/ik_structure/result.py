@@ -26,20 +26,11 @@ IKKind = Literal[
     "coupled joints",
 ]
 
-IKMethod = Literal[
-    "closed form",
-    "continuation",
-    "one-dimensional search",
-    "two-dimensional search",
-    "lock",
-    "search",
-]
+IKMethod = Literal["closed form", "elimination", "search", "lock"]
 
 _WAYS: dict[IKMethod, str] = {
     "closed form": "closed form",
-    "continuation": "closed form of the nearest such arm, and continuation to this one",
-    "one-dimensional search": "one-dimensional search: one joint is sampled, the others follow",
-    "two-dimensional search": "two-dimensional search: two joints are sampled",
+    "elimination": "elimination: all real roots of a polynomial of degree 16",
     "search": "search from random starts",
 }
 
@@ -141,9 +132,8 @@ class IKStructure(Result):
         spherical wrist or shoulder), "singular everywhere", or "coupled joints" (fewer coordinates
         than joints).
     method : str
-        "closed form", "continuation" (of the solutions of the nearest arm with a closed form),
-        "one-dimensional search", "two-dimensional search", "lock" (of joints, for redundant
-        arms) or "search" (from random starts).
+        Way that `ik_all` takes: "closed form", "elimination" or "search" (from random starts), or
+        "lock" (joints, of redundant arms).
     joints : tuple of int
         Numbers of the joints whose axes make the kind, from 1.
     reversed : bool
@@ -174,7 +164,7 @@ class IKStructure(Result):
     left_out: ClassVar[tuple[str, ...]] = ("nearest",)
 
     kind: IKKind
-    method: IKMethod
+    method: IKMethod = "search"
     joints: tuple[int, ...] = ()
     reversed: bool = False
     exact: bool = True

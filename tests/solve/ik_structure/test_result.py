@@ -32,7 +32,7 @@ def test_an_assumption_says_its_size_in_mm_or_degrees():
 def test_a_reversed_arm_with_sliding_joints_says_so_a_line_each():
     found = IKStructure(
         "two axes intersect",
-        "one-dimensional search",
+        "search",
         (1, 2),
         reversed=True,
         prismatic=("rail", "lift"),
@@ -40,7 +40,7 @@ def test_a_reversed_arm_with_sliding_joints_says_so_a_line_each():
     )
     assert str(found).split("\n") == [
         "two axes intersect: axes 1 and 2, solved reversed (from the tip to the base)",
-        "one-dimensional search: one joint is sampled, the others follow",
+        "search from random starts",
         "prismatic: 'rail', 'lift'",
         "closed form if axes 1, 2 and 3 met: they miss by 12 mm",
     ]
@@ -56,5 +56,5 @@ def test_a_locked_joint_whose_axes_nearly_fit_is_called_so():
 
 
 def test_json_is_the_dict():
-    found = IKStructure("general", "two-dimensional search")
+    found = IKStructure("general")
     assert found.to_json() == json.dumps(found.to_dict(), indent=2)
