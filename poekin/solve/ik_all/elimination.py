@@ -87,10 +87,10 @@ class Elimination:
             others.append((unsure, other))
             for whole, part in zip(found, other, strict=True):
                 whole[unsure[other.sure]] = part[other.sure]
-        for unsure, other in others:
-            own = ~found.sure[unsure]
-            if own.any():
-                _join(found, unsure[own], other, own)
+        for which, other in others:
+            left = ~found.sure[which]
+            if left.any():
+                _join(found, which[left], other, left)
         return found
 
 
@@ -101,7 +101,8 @@ def _join(found: EliminatedRows, which: np.ndarray, other: EliminatedRows, own: 
     others = other.q[own]
     margins = other.margin[own]
     target = np.arange(len(which))
-    for row in range(margins.shape[1]):
+    # solutions are in the first rows
+    for row in range((margins >= 0.0).sum(axis=1).max()):
         off = _apart(q, others[:, row, None])
         is_known = ((off < _FOUND) & (margin >= 0.0)).any(axis=1)
         free = np.argmin(margin, axis=1)
