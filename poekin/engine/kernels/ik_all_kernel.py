@@ -116,7 +116,10 @@ def condition_bound(free, work):
     for i in range(J.shape[1]):
         if free[i] != 0.0:
             count += 1
-            product *= max(work.H[i, i], 0.0)
+            pivot = work.H[i, i]
+            if not pivot > 0.0:  # after one of 0 they are no numbers
+                return 0.0
+            product *= pivot
             for r in range(6):
                 trace += J[r, i] * J[r, i]
     if count < 2 or trace == 0.0:

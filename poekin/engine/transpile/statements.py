@@ -48,7 +48,7 @@ class FunctionWriter(CallWriter):
         instance.called = list(self.called)
         returned = "void" if self.returns is None else self.structures.spell(self.returns)
         parameters = ", ".join(self._parameter(name) for name in instance.runtime)
-        instance.head = f"static {returned} {instance.name}({parameters or 'void'})"
+        instance.head = f"static inline {returned} {instance.name}({parameters or 'void'})"
         unread = [name for name in instance.runtime if name not in self.read | self.written]
         lines = [f"    (void){self.c_name(name)};" for name in unread]
         lines += [

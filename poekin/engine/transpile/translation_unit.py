@@ -99,7 +99,7 @@ class TranslationUnit:
         full = f"{self.prefix}_{name}"
         self._helpers[full] = (
             f"/* {name}(a, b) as Python has it: a where one is not a number. */\n"
-            f"static double {full}(double a, double b)\n{{\n"
+            f"static inline double {full}(double a, double b)\n{{\n"
             f"    return b {_HELPERS[name]} a ? b : a;\n}}"
         )
         return full

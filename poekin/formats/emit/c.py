@@ -184,6 +184,11 @@ class CFunction:
         lines = [line for head, body in blocks for line in ("", head, "{", *body, "}")]
         return "\n".join([*lines, ""])
 
+    def sincos_text(self) -> str:
+        """The definition of the function of sines and cosines alone."""
+        body = self._statements(statements(self.task.program, self.literal))
+        return "\n".join(["", self.heads[1], "{", *body, "}", ""])
+
     def _angles(self, program: Statements) -> list[str]:
         unused = [
             name for name, used in (("q", program.angle_reads), ("x", program.angles)) if not used

@@ -22,7 +22,7 @@ Loan 2013, Section 2.5.4, for the decomposition.
 
 from .. import elementary
 from . import circle_conic, circle_line
-from .rounding import is_rounding
+from .rounding import is_rounding, least
 
 _SHARPENED = 3  # steps at most
 _NEAR = -1e-3  # margin of a root that may be double
@@ -285,7 +285,7 @@ def _residual(row, c, s, x, y):
 
 def _sharpened(first, second, root):
     """A root by Newton's rule in both angles, as long as the residual becomes smaller; its margin is
-    0 where it is just below and the residual is rounding.
+    0 where it is just below and the residual is rounding, and below 0 where it is not.
     """
     c, s, x, y, margin = root
     if not margin > _NEAR:
@@ -312,8 +312,9 @@ def _sharpened(first, second, root):
         s = q
         x = u
         y = v
-    if margin < 0.0 and is_rounding(_DOUBLE * size, 1.0 + 0.0 * size):
-        margin = 0.0 * margin
+    if margin <= 0.0:
+        rounding = is_rounding(_DOUBLE * size, 1.0 + 0.0 * size)
+        margin = 0.0 * size if rounding else least(margin, -size)
     return c, s, x, y, margin
 
 

@@ -24,23 +24,27 @@ _LARGE = 1e300
 _ONES = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
 
 
-def select(forward, target, branches, count, sizes, T, work, q):
-    """Write the solutions that `count` branches lead to into rows of q, and return their number.
+def select(forward, placed, target, branches, sizes, T, work, q):
+    """Write the solutions that branches lead to into rows of q, and return their number.
 
-    `forward(x, T, J)` writes the pose T, 4 x 4, and the hybrid Jacobian J. A branch is m <= 6
-    coordinates and a margin. `sizes` holds the period of each coordinate, 0 of a length, and the
-    arm's reach. `work` is scratch, m + 8 rows of m.
+    `forward(x, T, J)` writes the pose T, 4 x 4, and the hybrid Jacobian J; `placed(branch, T)` the
+    pose of a branch: m <= 6 coordinates, what else it has, and a margin. `sizes` holds the period of
+    each coordinate, 0 of a length, and the arm's reach. `work` is scratch, m + 8 rows of m.
     """
     m = len(sizes) - 1
     found = 0
     if not _is_pose(target):
         return found
-    for k in range(count):
-        if not branches[k][m] > _OUTSIDE:
+    for k in range(len(branches)):
+        branch = branches[k]
+        if not branch[len(branch) - 1] > _OUTSIDE:
             continue
         for i in range(m):
-            q[found][i] = branches[k][i]
-        near = _converged(forward, target, sizes[m], T, work, q[found])
+            q[found][i] = branch[i]
+        placed(branch, T)
+        near = size(pose_error(T, target), sizes[m]) <= _EXACT * _EXACT
+        if not near:
+            near = _converged(forward, target, sizes[m], T, work, q[found])
         if near and not _is_listed(q, found, sizes):
             found += 1
     return found

@@ -67,8 +67,9 @@ def ik(  # noqa: PLR0913 - options by keyword
     tol_rotation : float, default 1e-9
         Largest angle of the rotation between target and solution, rad.
     nearest_to : (m,) or (..., m) array_like or dict, optional
-        Configuration, within the limits or not, to be near to: of the solutions that some fifty
-        tries find, the one with the least distance from it is taken, in rad and m of the joints.
+        Configuration, within the limits or not, to be near to: the solution with the least distance
+        from it is taken, in rad and m of the joints. For a pose it is the nearest of all, without a
+        search, where `ik_all` has them all; else the nearest that some fifty tries find.
     secondary_objective : {"middle", "nearest", "manipulability"}, optional
         Null-space objective of an arm with more joints than the task needs: the middle of the
         limits, nearness to q0, or Yoshikawa's measure of what the task asks, in rad and m. It is

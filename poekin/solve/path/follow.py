@@ -61,9 +61,9 @@ def follow(  # noqa: PLR0913 - options by keyword
         Poses of the tip in the base frame, m, in order.
     q0 : (m,) array_like or dict, optional
         Configuration from which the arm goes on, rad or m: the first pose gets the solution that is
-        reached from it, else the one nearest to it. Without it, 8 to 32 starts are tried, those
-        that follow the whole path are preferred to all others, and of them the one whose largest
-        step is smallest.
+        reached from it, else the one nearest to it. Without it, all solutions of the first pose are
+        tried where `ik_all` has them all, else 8 to 32 starts; those that follow the whole path are
+        preferred to all others, and of them the one whose largest step is smallest.
     times : (N,) array_like, optional
         Time of each pose, s, ascending.
     speed, acceleration : float, (m,) array_like or dict, optional

@@ -14,6 +14,7 @@ from ...groups.arrays import Array
 from ...model.kinematics.compiled import CompiledChain
 from ...model.readings.coupled import WITHIN
 from ...results import Progress
+from ..ik.choice.every_solution import every_solution
 from ..ik.ik_problem import IKProblem
 from ..ik.least_error import least_error, slope_at
 from ..ik.solution import ITERATIONS, Names, Solution
@@ -29,8 +30,8 @@ change of branch.
 
 ROUNDS = 4
 TRIES = 8
-"""Starts are looked for in so many rounds of so many tries, until one of them follows the whole
-path.
+"""Starts are looked for in so many rounds, the first where all solutions are known one of these,
+else of so many tries, until one of them follows the whole path.
 """
 
 AT_ONCE = 64
@@ -306,8 +307,16 @@ class Follower:
         turn: int,
         last: Array | None,
     ) -> Array:
-        """Solutions of pose k: the nearest to the last joints first, then of random starts."""
+        """Solutions of pose k: first all of them where they are known, whole turns away towards the
+        last joints or the middle of the limits; else the nearest to the last joints, then of random
+        starts.
+        """
         domain = self.problem.domain
+        beside = domain.ranges.mean(axis=1) if last is None else last
+        if turn == 0:
+            every = every_solution(self.problem, self.targets[k : k + 1], beside[None])
+            if every is not None and every.complete.all() and len(every.u):
+                return every.u
         T = np.tile(self.targets[k], (TRIES, 1, 1))
         number = np.arange(TRIES, dtype=float) + TRIES * turn
         anywhere = domain.anywhere(TRIES)
@@ -315,8 +324,7 @@ class Follower:
         solved = info[:, codes.AT_STATE] == codes.SOLVED
         q = q[solved]
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
-            middle = domain.ranges.mean(axis=1)
-            q = domain.wrapped(q, middle if last is None else last)
+            q = domain.wrapped(q, beside)
         if last is not None and turn == 0:
             here = self.problem.coordinates(last)
             near = solve(self.problem, self.targets[k], nearest_to=here)

@@ -505,6 +505,11 @@ def test_a_bound_of_the_condition_is_one_and_locked_columns_do_not_count(m):
     n = min(m, 6)
     expected = ((n - 1) ** (n - 1) / n**n) ** 0.5
     assert ik_all_kernel.condition_bound(free, work) == pytest.approx(expected)
+    J = rng.normal(size=(6, m))
+    J[:, 1] = J[:, 0] = np.eye(6)[0]  # two joints about one axis: a pivot of exactly 0
+    work = work._replace(J=J)
+    assert ik_all_kernel.is_singular(ones, np.ones(m), work)
+    assert ik_all_kernel.condition_bound(np.ones(m), work) == 0.0
 
 
 def test_a_locked_coordinate_starts_every_try_at_its_own_value_of_the_target(monkeypatch):

@@ -61,7 +61,7 @@ def test_a_function_is_written_for_the_arms_flags_and_what_it_does_not_need_is_l
     assert "never" not in text
     assert "if" not in text.replace("/* One of two, by a flag of the arm. */", "")
     assert (
-        "static void t_test_translation_unit_by_kind(const double *a, double *out)\n{\n"
+        "static inline void t_test_translation_unit_by_kind(const double *a, double *out)\n{\n"
         "    out[0] = t_test_translation_unit_twice(a[0]) * 3.0;\n"
         "    for (int i = 0; i < 2; i++) {\n"
         "        out[1] = out[1] + t_arm[3 * i + 1];\n    }\n}"

@@ -16,11 +16,15 @@ def forward(x, T, J):
     T[:], J[:] = ARM.fk_jacobian(x, "hybrid")
 
 
+def placed(branch, T):
+    T[:] = ARM.fk(branch[:6])
+
+
 def selected(T, branches):
     q = np.empty((len(branches), 6))
     work = np.empty((14, 6))
     with np.errstate(all="ignore"):
-        n = confirmed.select(forward, T, branches, len(branches), SIZES, np.empty((4, 4)), work, q)
+        n = confirmed.select(forward, placed, T, branches, SIZES, np.empty((4, 4)), work, q)
     return q[:n]
 
 
@@ -65,3 +69,23 @@ def test_of_what_is_no_pose_there_is_no_solution(spoil):
     T = ARM.fk(q)
     T[:3, :3] *= spoil
     assert len(selected(T, np.array([branch(q)]))) == 0
+
+
+def test_a_branch_whose_own_pose_is_the_target_is_taken_as_it_is():
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    found, at = np.empty((1, 6)), []
+
+    def asked(x, T, J):
+        at.append(x.copy())
+        forward(x, T, J)
+
+    # what its pose is said to be decides: of another one Newton's rule is asked
+    for poses, calls in ((ARM.fk(q), 0), (ARM.fk(q + 1e-5), 1)):
+        at.clear()
+        count = confirmed.select(
+            asked, lambda _, T, poses=poses: T.__setitem__(slice(None), poses), ARM.fk(q),
+            np.array([branch(q)]), SIZES, np.empty((4, 4)), np.empty((14, 6)), found,
+        )  # fmt: skip
+        assert count == 1
+        assert len(at) == calls
+        np.testing.assert_array_equal(found[0], q)

@@ -15,6 +15,7 @@ import poekin as pk
 from poekin.model import screw
 from poekin.solve import motion
 from poekin.solve.ik import ik as ik_module
+from poekin.solve.ik.choice.every_solution import EverySolution
 from poekin.solve.ik.ik_problem import Settings, make_problem
 from poekin.solve.path import follow as follow_module
 from poekin.solve.path import follower
@@ -443,3 +444,34 @@ def test_other_solutions_of_a_pose_lie_turns_away_towards_the_last_joints_or_the
     assert len(found) > 1
     assert (np.abs(found - near) <= np.pi + 1e-9).all()
     assert (np.abs(f._solutions(0, 3, near) - near) > np.pi).any(), "every other round as they are"
+
+
+@pytest.mark.parametrize("complete", [True, False])
+def test_starts_are_all_solutions_in_the_first_round_and_others_after_it(complete, monkeypatch):
+    asked = []
+
+    def every(problem: Any, T: np.ndarray, near: np.ndarray) -> EverySolution:
+        asked.append((T.tolist(), near.tolist()))
+        return EverySolution(np.array([Q, Q + 1]), np.zeros(2, int), np.array([complete]))
+
+    monkeypatch.setattr(follower, "every_solution", every)
+    f = one(3)
+    found = f._solutions(1, 0, None)
+    assert np.array_equal(found, [Q, Q + 1]) == complete
+    f._solutions(1, 0, Q + 2)
+    for turn in (1, 2, 3):
+        f._solutions(1, turn, None)
+    middle = ARM.chain.limits.mean(axis=1)
+    T = f.targets[1:2].tolist()
+    rounds = [call for call in asked if len(call[1]) == 1]
+    assert rounds[0] == (T, [middle.tolist()])
+    assert rounds[1] == (T, [(Q + 2).tolist()])
+    assert len(rounds) == 2
+
+
+def test_of_an_arm_with_a_closed_form_no_branch_is_missed_as_a_start():
+    arm = pk.load("ur5").chain()
+    T = arm.fk(arm.random(1, 1))
+    settings = SETTINGS._replace(task="pose")
+    f = follower.Follower(make_problem(arm.compile(), settings), T, np.full(6, 0.1), None)
+    assert len(f._solutions(0, 0, None)) == pk.ik_all(arm, T[0]).counts == 8

@@ -11,9 +11,8 @@ across the axis that the family names, and how many joints the arm does not have
 frame at zero.
 """
 
-import math
-
 from ....algebra import rotate, subtract, unrotate
+from ...straight_line.arctangent import atan2
 
 SHAPE = (10, 8)
 DIRECTION = 0
@@ -96,19 +95,28 @@ def slides(arm, i):
     return arm[i, SLIDES] != 0.0
 
 
+def coordinates(arm):
+    """Number of the coordinates that the arm has."""
+    return 6 - int(arm[RULE, ADDED])
+
+
 def store(arm, x, margin, row):
     """Write the coordinates and margin of x = (x_1, y_1, ..., x_6, y_6), and return whether joints
-    that the arm does not have are near 0.
+    that the arm does not have are near 0. A row of 3 m + 1 numbers gets (x, y) of each coordinate
+    too.
     """
     away = 0.0
     for i in range(6):
         if slides(arm, i):
             value = x[2 * i]
         else:
-            value = math.atan2(x[2 * i + 1], x[2 * i])
+            value = atan2(x[2 * i + 1], x[2 * i])
         column = int(arm[i, COLUMN])
         if column >= 0:
             row[column] = value
+            if row.shape[0] > coordinates(arm) + 1:
+                row[coordinates(arm) + 2 * column] = x[2 * i]
+                row[coordinates(arm) + 2 * column + 1] = x[2 * i + 1]
         elif not abs(value) <= away:
             away = abs(value)
     if not away <= HELD or not margin > 0.0:

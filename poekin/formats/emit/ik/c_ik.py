@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....engine.transpile.c_types import INT, CTable
+from ....engine.transpile.c_types import CTable
 from ....engine.transpile.translation_unit import External, TranslationUnit
 from ....engine.transpile.values import Argument, Instance
 from ....errors import InputError, safe_repr
@@ -20,6 +20,7 @@ from ..statements import double
 from .c_ik_selftest import selftest
 from .closed_arm import ClosedArm, closed_arm
 from .ik_vectors import targets
+from .placed_branch import PlacedBranch, columns
 
 
 def c_ik(
@@ -124,14 +125,17 @@ def _header(word: str, head: list[str], dof: int, rows: int) -> str:
 
 
 def _source(word: str, head: list[str], chain: Chain, form: ClosedArm, sizes: Array) -> str:
-    task = make_tasks(compiled(chain), "hybrid")[2]
-    forward = CFunction(word, "double", double, task, chain.dof, "static ")
-    unit = TranslationUnit(word, {_forward: External(forward.name, (1, 2))})
+    pose, _, both = make_tasks(compiled(chain), "hybrid")
+    forward = CFunction(word, "double", double, both, chain.dof, "static ")
+    placed = PlacedBranch(word, pose, chain.dof)
+    outside = {_forward: External(forward.name, (1, 2)), _placed: External(placed.name, (1,))}
+    unit = TranslationUnit(word, outside)
     fill, select = _instances(unit, form, sizes, chain.dof)
     texts = [
         comment(head),
         f'#include "{word}.h"\n\n#include <math.h>\n',
         forward.text(),
+        placed.text(),
         unit.text([fill, select]),
         _whole(word, chain.dof, form, fill, select),
     ]
@@ -142,20 +146,24 @@ def _forward(x: Array, T: Array, J: Array) -> None:
     """Stands for the pose and hybrid Jacobian of the arm, a function of C."""
 
 
+def _placed(branch: Array, T: Array) -> None:
+    """Stands for the pose of a branch, a function of C."""
+
+
 def _instances(
     unit: TranslationUnit, form: ClosedArm, sizes: Array, dof: int
 ) -> tuple[Instance, Instance]:
     """Functions that compute the branches, and that select the solutions."""
     matrix = Argument(CTable(4, 4))
-    rows = Argument(CTable(form.rows, form.columns))
+    rows = Argument(CTable(form.rows, columns(dof)))
     fill = unit.instance(form.fill, [unit.table("arm", form.arm), matrix, rows])
     select = unit.instance(
         confirmed.select,
         [
             unit.function(_forward),
+            unit.function(_placed),
             matrix,
             rows,
-            Argument(INT),
             unit.table("sizes", sizes),
             matrix,
             Argument(CTable(dof + 8, dof)),
@@ -169,13 +177,16 @@ def _instances(
 
 def _whole(word: str, dof: int, form: ClosedArm, fill: Instance, select: Instance) -> str:
     """The function that users call."""
+    width = columns(dof)
     lines = [
         "",
         f"int {word}(const double T[16], double q[{word.upper()}_MOST][{dof}])",
         "{",
-        f"    double branches[{form.rows * form.columns}], pose[16], work[{(dof + 8) * dof}];",
-        f"    const int count = {fill.name}(T, branches);",
-        f"    return {select.name}(T, branches, count, pose, work, q[0]);",
+        f"    double branches[{form.rows * width}], pose[16], work[{(dof + 8) * dof}];",
+        f"    for (int k = {fill.name}(T, branches); k < {form.rows}; k++) {{",
+        f"        branches[{width} * k + {width - 1}] = -1.0;",
+        "    }",
+        f"    return {select.name}(T, branches, pose, work, q[0]);",
         "}",
         "",
     ]

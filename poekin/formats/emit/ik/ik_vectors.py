@@ -40,9 +40,12 @@ def solutions(chain: Chain, form: ClosedArm, sizes: Array, T: Array) -> Array:
     def forward(x: Array, T_x: Array, J: Array) -> None:
         T_x[:], J[:] = chain.fk_jacobian(x, "hybrid")
 
+    def placed(branch: Array, T_x: Array) -> None:
+        T_x[:] = chain.fk(branch[:m])
+
     with np.errstate(all="ignore"):
         found = confirmed.select(
-            forward, T, branches, form.rows, sizes, np.empty((4, 4)), np.empty((m + 8, m)), q
+            forward, placed, T, branches, sizes, np.empty((4, 4)), np.empty((m + 8, m)), q
         )
     return q[:found]
 

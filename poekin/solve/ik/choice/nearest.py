@@ -1,4 +1,4 @@
-"""Solutions nearest to a given configuration, of several tries for each target."""
+"""Solutions nearest to a given configuration: of all where they are known, else of several tries."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from ....engine.kernels import ik_codes as codes
 from ....groups.arrays import Array
 from ...joint_units import bounds
 from ..ik_problem import IKProblem
+from .every_solution import every_solution
 
 NEAREST_OF = 48
 """Number of tries for each target after the first."""
@@ -31,7 +32,37 @@ def nearest(
 ) -> tuple[Array, Array]:
     """q and info of the solution nearest to the configuration `near`, for each target.
 
-    The first try starts from q0 or, where that is anywhere, from `near` within the limits.
+    It is the nearest of all where these are known, else of several tries, see `nearest_of_tries`.
+    """
+    every = every_solution(problem, targets, near)
+    if every is None:
+        return nearest_of_tries(problem, targets, indices, q0, near)
+    solved, first = np.unique(every.owner, return_index=True)
+    best = near.copy()
+    best[solved] = every.u[first]
+    best, info = problem.solve(targets, indices, best, restarts=0)
+    distance = np.full(len(near), np.inf)
+    distance[solved] = _distance(best, near, info)[solved]
+    rest = np.flatnonzero(~(every.complete & np.isfinite(distance)))
+    if len(rest):
+        asked = (targets[rest], indices[rest], q0[rest], near[rest])
+        other, told = nearest_of_tries(problem, *asked)
+        nearer = ~(distance[rest] < _distance(other, near[rest], told))
+        best[rest[nearer]] = other[nearer]
+        info[rest[nearer]] = told[nearer]
+    return best, info
+
+
+def nearest_of_tries(
+    problem: IKProblem,
+    targets: Array,
+    indices: Array,
+    q0: Array,
+    near: Array,
+) -> tuple[Array, Array]:
+    """q and info of the nearest solution that several tries find, for each target.
+
+    The first of them starts from q0 or, where that is anywhere, from `near` within the limits.
     """
     domain = problem.domain
     within = domain.held(np.clip(near, *domain.limits.T))

@@ -8,6 +8,7 @@ import pytest
 import poekin as pk
 from poekin.engine.kernels import ik_codes as codes
 from poekin.solve.ik.choice import nearest
+from poekin.solve.ik.choice.every_solution import EverySolution
 from poekin.solve.ik.ik_problem import Settings, make_problem
 
 ARM = pk.load("ur5").chain().compile()
@@ -55,3 +56,38 @@ def test_the_nearest_is_looked_for_with_limits_and_without_from_near_and_from_an
         assert restarts == 0
         assert (limits is None) == (k % 4 < 2)
         assert limits is None or np.array_equal(limits, np.tile([-np.inf, np.inf], (6, 1)))
+
+
+def test_where_all_solutions_are_known_the_nearest_is_taken_and_else_the_better_of_both(
+    monkeypatch,
+):
+    made = make_problem(ARM, GIVEN)
+    q = ARM.chain.random(3, 4)
+    T = ARM.fk(q)
+    near = q + 0.01
+    T[3, :3, 3] = 9.0  # out of reach
+    other = ARM.chain.random(4, 4)
+    # the first target's are complete, the second's not, the third's are none
+    u = np.vstack([q[:1], ARM.chain.random(5, 1), q[1:2]])
+    every = EverySolution(u, np.array([0, 0, 1]), np.array([True, False, True, True]))
+    asked = []
+
+    def tries(problem, targets, indices, q0, near):
+        asked.append(indices.tolist())
+        info = np.zeros((len(targets), codes.INFO))
+        info[:, codes.AT_STATE] = [codes.SOLVED, codes.SOLVED, codes.STALLED]
+        info[:, codes.AT_ITERATIONS] = 49
+        return other[indices.astype(int)], info
+
+    monkeypatch.setattr(nearest, "every_solution", lambda *_: every)
+    monkeypatch.setattr(nearest, "nearest_of_tries", tries)
+    numbers = np.arange(4.0)
+    anywhere = np.full((4, 6), np.nan)
+    best, info = nearest.nearest(made, T, numbers, anywhere, near)
+    assert asked == [[1, 2, 3]], "what is complete is not searched"
+    np.testing.assert_array_equal(best, [q[0], q[1], other[2], other[3]])
+    assert info[:, codes.AT_ITERATIONS].tolist() == [0, 0, 49, 49]
+    assert info[3, codes.AT_STATE] == codes.STALLED
+    other[1] = near[1]  # now the search's is nearer
+    best, _ = nearest.nearest(made, T, numbers, anywhere, near)
+    np.testing.assert_array_equal(best[1], other[1])
