@@ -21,13 +21,17 @@ MOST = 8
 def workers() -> Iterator[Share]:
     """`map` by processes, which begins with everything at once."""
     context = multiprocessing.get_context("spawn")
-    count = min(processors(), MOST)
-    with ProcessPoolExecutor(count, context, initializer=_end_at_once) as pool:
+    with ProcessPoolExecutor(most_workers(), context, initializer=_end_at_once) as pool:
         try:
             yield pool.map
         except BaseException:  # Ctrl-C, too: what has not begun is not waited for
             pool.shutdown(wait=False, cancel_futures=True)
             raise
+
+
+def most_workers() -> int:
+    """How many tasks run at once."""
+    return min(processors(), MOST)
 
 
 def processors() -> int:
