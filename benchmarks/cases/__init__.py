@@ -93,6 +93,7 @@ first.
 """
 UNTIMED = (
     "calibration_coverage",
+    "accuracy_hunted",
     "derivatives",
     "accuracy_by_angle",
     "calibration_outliers",

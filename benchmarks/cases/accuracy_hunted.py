@@ -14,9 +14,8 @@ from poekin import se3
 
 from .. import peers
 from ..accuracy.worst_errors import REPORT_BAR
-from ..hunt import QUANTITIES, Effort, Function, Quantity, Worst, hunt
+from ..hunt import QUANTITIES, Effort, Function, Worst, hunt
 from ..report import Figure, Table, Topic, short
-from ..workers import workers
 
 WORDS = (
     "Random twists, |ω| up to 10 rad for exp and 0.05 rad to π for log, then hill climbing: the worst cases so far "
@@ -42,13 +41,12 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     same, more = (
         (Effort(500, 3), Effort(2_000, 3)) if quick else (Effort(4_000, 10), Effort(100_000, 25))
     )
-    others = [peer for peer in peers.chosen() if peer.peer.group is not None]
-    with workers() as share:
-        longer = share(_longer, QUANTITIES, [more] * len(QUANTITIES))
-        rest = share(_peer, [None, *others], [same] * (1 + len(others)))
-        found = [Hunted("poekin, longer", dict(longer)), *rest]
-    for library in (found[0], *found[2:]):
-        say(_line(library))
+    found = [hunted("poekin, longer", OWN, more), hunted("poekin", OWN, same)]
+    say(_line(found[0]))
+    for peer in peers.chosen():
+        if peer.peer.group is not None:
+            found.append(_peer(peer, same))
+            say(_line(found[-1]))
     return report(found)
 
 
@@ -56,16 +54,13 @@ def hunted(name: str, functions: Mapping[str, Function], effort: Effort) -> Hunt
     """Hunt a library; the random cases are the same for everybody who is hunted with the same
     effort.
     """
-    return Hunted(name, {q.name: _worst(q, functions, effort) for q in QUANTITIES})
-
-
-def _worst(q: Quantity, functions: Mapping[str, Function], effort: Effort) -> Worst:
-    return hunt(q, functions[q.function], effort, np.random.default_rng(0))
-
-
-def _longer(q: Quantity, effort: Effort) -> tuple[str, Worst]:
-    """poekin's worst of one quantity: a task of its own, as these hunts take most of the time."""
-    return q.name, _worst(q, OWN, effort)
+    return Hunted(
+        name,
+        {
+            q.name: hunt(q, functions[q.function], effort, np.random.default_rng(0))
+            for q in QUANTITIES
+        },
+    )
 
 
 def report(found: Sequence[Hunted]) -> Topic:
@@ -82,10 +77,7 @@ def report(found: Sequence[Hunted]) -> Topic:
     return Topic("Accuracy of exp and log, hunted", WORDS, figures=figures, tables=[_table(found)])
 
 
-def _peer(found: peers.Found | None, effort: Effort) -> Hunted:
-    """Hunt a peer; poekin where it is None."""
-    if found is None:
-        return hunted("poekin", OWN, effort)
+def _peer(found: peers.Found, effort: Effort) -> Hunted:
     name = f"{found.peer.name} {found.peer.version}".strip()
     if found.problem or found.peer.group is None:
         return Hunted(name, {}, found.problem)

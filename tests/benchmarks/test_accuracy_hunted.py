@@ -4,7 +4,6 @@ planted is found.
 
 from __future__ import annotations
 
-import contextlib
 import math
 
 import numpy as np
@@ -104,8 +103,6 @@ def test_the_bars_are_the_report_s_and_the_best_peer():
 def test_the_topic_hunts_poekin_and_a_peer(monkeypatch):
     chosen = [peer for peer in peers.find([*peers.STANDARD.values()]) if peer.peer.name == "SciPy"]
     monkeypatch.setattr(accuracy_hunted.peers, "chosen", lambda: chosen)
-    # In this process, which need not load everything again.
-    monkeypatch.setattr(accuracy_hunted, "workers", lambda: contextlib.nullcontext(map))
     said: list[str] = []
     topic = accuracy_hunted.topic(True, said.append)
     assert len(said) == 2
