@@ -2,7 +2,8 @@
 write the report.
 
 The page is there after a quick look at the topics that open it, and is written again after each
-topic. Ctrl-C ends the measuring; the report is written with what there is.
+topic. Those that are not timed come first, side by side; of the others each has the machine for
+itself. Ctrl-C ends the measuring; the report is written with what there is.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import time
 from pathlib import Path
 
 from . import peers
-from .cases import OPENING, TOPICS
+from .cases import OPENING, TOPICS, UNTIMED
 from .page import plain_table, summary
 from .run import Run
 
@@ -55,8 +56,12 @@ def main() -> int:
     try:
         for name in looks:
             run.measure(name, quick=True, look=True)
+        together = [name for name in UNTIMED if name in run.names]
+        if len(together) > 1:
+            run.measure_together(together, quick=options.quick)
         for name in run.names:
-            run.measure(name, quick=options.quick)
+            if name not in run.done:
+                run.measure(name, quick=options.quick)
     except KeyboardInterrupt:
         interrupted = True
         run.stop()

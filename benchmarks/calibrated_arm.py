@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import numpy as np
 
+import poekin as pk
 from poekin.algebra import IDENTITY, compose
 from poekin.formats.dh import Row, Table, to_chain
 from poekin.formulas import dh
 from poekin.formulas.lie import exponential
+from poekin.model.chain import Chain
 
 # Published in the documentation of the Universal Robots ROS 2 driver, package ur_calibration: a
 # real UR10e-size arm.
@@ -47,6 +49,11 @@ UR10E = Table(
     [Row(*row) for row in zip(THETA, D, A, ALPHA, strict=True)],
     name="ur10e_calibrated",
 )
+
+
+def calibrated_ur10e() -> Chain:
+    """The arm of the table, with the joints' zeros of the nominal one."""
+    return pk.ur.from_dh(UR10E, nominal=pk.dh.published("ur10e")).to_chain()
 
 
 def single_precision_errors(table: Table, q: np.ndarray) -> dict[str, np.ndarray]:

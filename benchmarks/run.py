@@ -9,10 +9,12 @@ import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from .cases import SECTION_OF, TOPICS
+from . import peers
+from .cases import SECTION_OF, TOPICS, UNTIMED
 from .machine import machine
 from .page import html, markdown, results
 from .report import Topic
+from .workers import most_workers, workers
 
 PAGES = {"index.html": html, "report.md": markdown, "results.json": results}
 
@@ -37,14 +39,22 @@ class Run:
     def measure(self, name: str, *, quick: bool, look: bool = False) -> None:
         """Run a topic and write the page; look: whether it is run again after it."""
         self.say(f"{name} …{self._time_left(look)}")
-        start = time.monotonic()
-        topic = self._attempt(name, quick)
-        topic.seconds = round(time.monotonic() - start, 1)
-        topic.quick = quick
-        self._keep(name, topic)
+        self._keep(name, attempted(name, quick, self.say))
         if not look:
             self.done.append(name)
         self.write()
+
+    def measure_together(self, names: Sequence[str], *, quick: bool) -> None:
+        """Run topics that are not timed, in a process a core, and write the page after each."""
+        self.say(f"{', '.join(names)} …{self._time_left(look=False)}")
+        count = len(names)
+        with workers() as share:
+            found = share(_apart, names, [quick] * count, [peers.chosen_names()] * count)
+            for name, topic in zip(names, found, strict=True):
+                self._keep(name, topic)
+                self.done.append(name)
+                self.write()
+                self.say(f"{name}: {topic.seconds:g} s")
 
     def stop(self) -> None:
         """Ctrl-C: the topics that are left are named, and quick looks stay."""
@@ -70,14 +80,6 @@ class Run:
         order = list(TOPICS)
         self.topics = dict(sorted(self.topics.items(), key=lambda item: order.index(item[0])))
 
-    def _attempt(self, name: str, quick: bool) -> Topic:
-        try:
-            return TOPICS[name].topic(quick, self.say)
-        except Exception:  # noqa: BLE001  the other topics' figures must not be lost, and this failure stands in the report
-            failure = traceback.format_exc()
-            self.say(f"{name} broke off:\n{failure}")
-            return Topic(name, failure=failure)
-
     def _time_left(self, look: bool) -> str:
         """Words on the time left: that of the last report in the folder, where there was one, and
         else by the mean of what is measured.
@@ -91,8 +93,33 @@ class Run:
         if not known:
             return ""
         mean = sum(known.values()) / len(known)
-        seconds = sum(known.get(name, mean) for name in left)
+        seconds = sum(known.get(name, mean) / _beside(name) for name in left)
         return f" ({len(left)} of {len(self.names)} to go, about {max(1, round(seconds / 60))} min)"
+
+
+def _beside(name: str) -> int:
+    """How many topics run side by side with a topic, and it among them."""
+    return most_workers() if name in UNTIMED else 1
+
+
+def attempted(name: str, quick: bool, say: Callable[[str], None]) -> Topic:
+    """A topic that has run, or its failure, with the seconds that it took."""
+    start = time.monotonic()
+    try:
+        topic = TOPICS[name].topic(quick, say)
+    except Exception:  # noqa: BLE001  the other topics' figures must not be lost, and this failure stands in the report
+        failure = traceback.format_exc()
+        say(f"{name} broke off:\n{failure}")
+        topic = Topic(name, failure=failure)
+    topic.seconds = round(time.monotonic() - start, 1)
+    topic.quick = quick
+    return topic
+
+
+def _apart(name: str, quick: bool, chosen: Sequence[str]) -> Topic:
+    """A topic in a process of its own, whose lines have its name before them."""
+    peers.use(chosen)
+    return attempted(name, quick, lambda line: print(f"{name}: {line}", flush=True))
 
 
 def _seconds_of(path: Path) -> dict[str, float]:

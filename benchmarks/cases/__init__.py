@@ -91,3 +91,22 @@ OPENING = (
 """The topics whose pictures answer the questions at the top of the page: a quick look at them comes
 first.
 """
+UNTIMED = (
+    "calibration_coverage",
+    "accuracy_hunted",
+    "derivatives",
+    "accuracy_by_angle",
+    "calibration_outliers",
+    "robots",
+    "model_truth_compare",
+    "accuracy",
+    "calibration_claim",
+    "model_truth_robots",
+    "calibration_franka",
+    "calibration",
+    "model_truth_tables",
+    "operation_counts",
+)
+"""The topics that hold no bar of time and start no processes of their own, the longest first: they
+run side by side, and before any that is timed.
+"""

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.stats import binom, chi2
 
 from poekin import Chain, load, se3, so3
 from poekin.solve import calibration as cal
@@ -33,8 +33,8 @@ WORDS = (
     "covariance. Inside: (p − p_true)ᵀ C⁻¹ (p − p_true) is below the 95 % point of chi-square, C the covariance that "
     "the calibration gives for all its parameters together. What a kind of measurement cannot see is nominal in the "
     "true arm, and the ellipsoid is that of what is left. Poses foretold: at one fresh configuration, the error of "
-    "the calibrated arm's pose in the 95 % ellipsoid of `pose_covariance`. If 95 % is true, a share of 1000 is within "
-    "93.6 and 96.4 % in 95 of 100 such reports. Where the covariance is not told, two spreads are estimated from 300 "
+    "the calibrated arm's pose in the 95 % ellipsoid of `pose_covariance`. Chance: where a share lies in 95 of 100 "
+    "such reports, if 95 % is true. Where the covariance is not told, two spreads are estimated from 300 "
     "numbers that 34 parameters were fitted to, and the ellipsoid is of chi-square all the same: a little too small."
 )
 
@@ -120,7 +120,8 @@ def figure(words: str, every: list[Found], bar: bool) -> Figure:
     return Figure(
         f"{words}: true parameters inside their 95 % ellipsoid", float(share), shown=_percent(every),
         bar_shown="93 … 97 %" if bar else "", holds=bool(LEAST <= share <= MOST) if bar else None,
-        note=f"{len(every)} calibrations; fresh poses inside that of `pose_covariance`: {_percent(every, 'pose')}",
+        note=f"{len(every)} calibrations, chance {_chance(len(every))}; fresh poses inside that of "
+        f"`pose_covariance`: {_percent(every, 'pose')}",
     )  # fmt: skip
 
 
@@ -182,3 +183,9 @@ def measured(T: np.ndarray, noise: np.ndarray, C: np.ndarray | None, kind: str) 
 
 def _percent(every: list[Found], what: str = "parameters", level: float = SHARE) -> str:
     return f"{100 * np.mean([getattr(f, what) < level for f in every]):.1f} %"
+
+
+def _chance(count: int) -> str:
+    """Where the share of so many lies in 95 of 100 reports, if 95 % is true."""
+    low, high = 100 * binom.ppf([0.025, 0.975], count, SHARE) / count
+    return f"{low:.1f} … {high:.1f} %"

@@ -17,6 +17,7 @@ from poekin import load
 from .. import exact_arm, peers
 from ..harness import Case, Timed, compare, in_turn, ratio
 from ..report import Figure, Table, Topic, short
+from ..workers import processors
 
 CONFIGURATIONS, CALLS, JUDGED = 20_000, 200, 50
 MILLION = 1_000_000
@@ -174,10 +175,8 @@ def _pinocchio(
 
 def _threads(chain: Any, arm: Any, judge: Judged, quick: bool) -> Figure:
     """All processors that this process may use ÷ one, by the wall clock."""
-    processors = (
-        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    )
-    words = "two threads" if processors == 2 else f"{processors} threads"
+    cores = processors()
+    words = "two threads" if cores == 2 else f"{cores} threads"
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (MILLION, chain.dof))
     q[:JUDGED] = np.random.default_rng(0).uniform(-np.pi, np.pi, (JUDGED, chain.dof))
     out, parallel = _arrays(MILLION, chain.dof), chain.compile(parallel=True)

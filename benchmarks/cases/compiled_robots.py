@@ -4,12 +4,8 @@ three frames.
 
 from __future__ import annotations
 
-import multiprocessing
-import os
-import signal
 import time
 import warnings
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,6 +20,7 @@ from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
 from ..draw import dots
 from ..report import Figure, Table, Topic, short
+from ..workers import workers
 
 SAMPLES = 20
 
@@ -60,16 +57,11 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     start = time.perf_counter()
     # Most of the time is LLVM's, which holds the interpreter's lock: so processes, each with some
     # of the robots.
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(min(os.cpu_count() or 1, 8), context, initializer=_deaf) as pool:
-        try:
-            for number, found in enumerate(pool.map(ways_of, robots), 1):
-                ways += found
-                if number % 10 == 0:
-                    say(f"{number} of {len(robots)} robots")
-        except BaseException:  # Ctrl-C, too: what has not begun is not waited for
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    with workers() as share:
+        for number, found in enumerate(share(ways_of, robots), 1):
+            ways += found
+            if number % 10 == 0:
+                say(f"{number} of {len(robots)} robots")
     seconds, compiling = time.perf_counter() - start, sum(way.compiling for way in ways)
     worst = max(ways, key=lambda way: way.errors.worst)
     still = sum(way.errors.joints == 0 for way in ways)
@@ -124,11 +116,6 @@ def ways_of(robot: tuple[str, str]) -> list[Way]:
         compiling = time.process_time() - start
         ways.append(Way(name, chain_errors(arm, oracle, q, note=note), compiling))
     return ways
-
-
-def _deaf() -> None:
-    """Ctrl-C reaches every process of a terminal: the first one answers it, and ends the others."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _row(name: str, rows: list[ChainErrors]) -> tuple[str | int | float, ...]:

@@ -9,16 +9,22 @@ latter alone, in so many examples).
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Sequence
-from typing import Any
 
-from poekin.testing.conform import LAWS, Grade, Outcome, Report, applicable, conform
-from poekin.testing.conform.search import worst
-from poekin.testing.conform.subjects.subject import Subject
+from poekin.testing.conform import LAWS, Grade, Outcome, Report
 
 from .. import peers, subjects
 from ..report import Figure, Table, Topic, short
+from ..subjects.held import (
+    BROKEN_WITHIN,
+    FALSE_EXAMPLES,
+    Caught,
+    caught,
+    false_findings,
+    held,
+    tries,
+)
+from ..workers import workers
 
 WORDS = (
     "Each library is a small class with those functions that it has, called as its documentation says; its order of "
@@ -30,23 +36,40 @@ WORDS = (
     "confirmed by mpmath's own matrix exponential before it was printed here. "
     "`python -m benchmarks.subjects 100000` looks for false findings alone, in so many examples."
 )
-BROKEN_WITHIN = 60.0
-FALSE_EXAMPLES = 3_000
 
 
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
-    found = [_held(subjects.Poekin, 60 if quick else 150, 120.0, say)]
-    for name, kinds in _libraries():
-        for kind in kinds:
-            found.append(_held(kind, 60 if quick else 150, 60.0, say, name))
-    caught = _caught(say)
-    total, false, not_exact = false_findings(1_000 if quick else FALSE_EXAMPLES, say)
+    count = 60 if quick else 150
+    libraries = [(name, kind) for name, kinds in _libraries() for kind in kinds]
+    names, kinds = zip(("", subjects.Poekin), *libraries, strict=True)
+    seconds = [120.0] + [60.0] * len(libraries)
+    # No time is measured here but that of a fault, which its process has a processor for.
+    with workers() as share:
+        reports = share(held, kinds, [count] * len(kinds), seconds, names)
+        faults = share(caught, subjects.FAULTS)
+        sound = tries(1_000 if quick else FALSE_EXAMPLES, share)
+        found = [_said(report, say) for report in reports]
+        faults = list(faults)
+        say(f"{sum(one.holds for one in faults)} of {len(faults)} faults caught")
+        total, false, not_exact = false_findings(sound, lambda line: None)
+    say(
+        f"{total} examples on subjects without fault: {false} laws with a finding, {not_exact} not exact"
+    )
     return Topic(
         "Who holds which law",
         WORDS,
-        _figures(found, caught, total, false, not_exact),
-        _tables(found, caught),
+        _figures(found, faults, total, false, not_exact),
+        _tables(found, faults),
     )
+
+
+def _said(report: Report | str, say) -> Report | str:  # type: ignore[no-untyped-def]
+    if isinstance(report, str):
+        say(report)
+    else:
+        count = len(report.findings)
+        say(f"{report.subject}: {len(report.outcomes)} laws, {count} poor or broken")
+    return report
 
 
 def _libraries() -> list[tuple[str, Sequence[type]]]:
@@ -57,65 +80,10 @@ def _libraries() -> list[tuple[str, Sequence[type]]]:
     return [(name, subjects.LIBRARIES[name]) for name in usable if name in subjects.LIBRARIES]
 
 
-def _held(kind: type, examples: int, seconds: float, say, name: str = "") -> Report | str:  # type: ignore[no-untyped-def]
-    """The report of a subject, or in one line why there is none."""
-
-    def run() -> Report:
-        # By its name: what has threads in this process does not survive a fork.
-        own = f"{subjects.__name__}:{kind.__name__}" if kind in vars(subjects).values() else kind
-        return conform(own, (), examples, seconds, leave_out=list(getattr(kind, "leaves_out", ())))
-
-    report, problem = peers.attempt(run)
-    if report is None:
-        say(f"{name}: {problem}")
-        return f"{name}: {problem}"
-    say(f"{report.subject}: {len(report.outcomes)} laws, {len(report.findings)} poor or broken")
-    return report
-
-
-def _caught(say) -> list[tuple[str, str, Outcome, float]]:  # type: ignore[no-untyped-def]
-    """Each fault: its letter and words, what found it, and in how many seconds."""
-    rows = []
-    for letter, (kind, law) in subjects.FAULTS.items():
-        start = time.monotonic()
-        outcome = conform(kind, examples=300, seconds=BROKEN_WITHIN - 10)[law]
-        rows.append((letter, str(kind.__doc__), outcome, time.monotonic() - start))
-    say(
-        f"{sum(_holds(outcome, seconds) for _, _, outcome, seconds in rows)} of {len(rows)} faults caught"
-    )
-    return rows
-
-
-def _holds(outcome: Outcome, seconds: float) -> bool:
-    return outcome.finding and outcome.numbers <= 3 and seconds <= BROKEN_WITHIN
-
-
-def false_findings(examples: int, say, each=lambda line: None) -> tuple[int, int, int]:  # type: ignore[no-untyped-def]
-    """How many examples were tried on subjects without fault, how many were poor or broken, and how
-    many not exact.
-    """
-    total = false = not_exact = 0
-    work: list[tuple[Any, Any]] = [
-        (law, Subject(kind)) for kind in (subjects.Angular, subjects.Linear) for law in LAWS
-    ]
-    work = [(law, subject) for law, subject in work if law in applicable(subject)]
-    for left, (law, subject) in zip(range(len(work), 0, -1), work, strict=True):
-        found = worst(law, subject, math.ceil(max(examples - total, 1) / left), math.inf)
-        total += found.examples
-        false += found.verdict.grade >= Grade.POOR
-        not_exact += found.verdict.grade > Grade.EXACT
-        each(f"{total} of {examples}: {found.verdict.grade.word} {law.name} of {subject.title}")
-    say(
-        f"{total} examples on subjects without fault: {false} laws with a finding, {not_exact} not exact"
-    )
-    return total, false, not_exact
-
-
 def _figures(
-    found: Sequence[Report | str], caught: Sequence[tuple[str, str, Outcome, float]], total: int, false: int,
-    not_exact: int,
+    found: Sequence[Report | str], faults: Sequence[Caught], total: int, false: int, not_exact: int
 ) -> list[Figure]:  # fmt: skip
-    good = sum(_holds(outcome, seconds) for _, _, outcome, seconds in caught)
+    good = sum(one.holds for one in faults)
     own = found[0]
     below = (
         [outcome.law for outcome in own.outcomes if outcome.grade > Grade.EXACT]
@@ -125,8 +93,8 @@ def _figures(
     laws = len(own.outcomes) if isinstance(own, Report) else 0
     return [
         Figure(
-            "faults of libraries, re-created, that are caught", len(caught) - good, 0,
-            shown=f"{good} of {len(caught)}", bar_shown="all",
+            "faults of libraries, re-created, that are caught", len(faults) - good, 0,
+            shown=f"{good} of {len(faults)}", bar_shown="all",
             note=f"within {BROKEN_WITHIN:g} s each; at most three numbers of the counterexample are not 0",
         ),
         Figure(
@@ -140,9 +108,7 @@ def _figures(
     ]  # fmt: skip
 
 
-def _tables(
-    found: Sequence[Report | str], caught: Sequence[tuple[str, str, Outcome, float]]
-) -> list[Table]:
+def _tables(found: Sequence[Report | str], faults: Sequence[Caught]) -> list[Table]:
     reports = [report for report in found if isinstance(report, Report)]
     problems = [report for report in found if isinstance(report, str)]
     rows = []
@@ -163,7 +129,7 @@ def _tables(
         Table(
             "Eight faults re-created", ("", "fault", "grade", "error", "numbers not 0", "seconds", "at"),
             [(letter, words, outcome.word, _size(outcome.error), outcome.numbers, short(seconds), outcome.words)
-             for letter, words, outcome, seconds in caught], folded=True,
+             for letter, words, outcome, seconds in faults], folded=True,
         ),
     ]  # fmt: skip
 

@@ -1,5 +1,5 @@
-"""Every solution of a pose: the search alone against EAIK's closed form, and how near all are to
-their targets.
+"""Every solution of a pose: what it takes beside EAIK, the search alone against EAIK's closed form,
+and how near all are to their targets.
 """
 
 from __future__ import annotations
@@ -10,21 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 import poekin as pk
-from poekin.model.chain import Chain
-from poekin.solve.ik_all.all_solutions import AllSolutions
-from poekin.solve.ik_all.ik_all import ik_all
 
 from ..report import Figure, Table, Topic, short
+from .ik_all_judge import SAME, Eaik, equal, errors
+from .ik_all_time import times as measured_times
 
 ARMS = {"ur5": "UR5", "puma560": "Puma 560"}
 SEED, COUNT = 5, 1000
-
-# Two solvers' ends of one solution: poses 1e-10 off make 1e-4 rad where the arm is singular within
-# 1e-6.
-SAME = 1e-4
-# EAIK's own solutions are nearer to their target than this [m and rad], its least squares ones are
-# not.
-ITS_OWN = 1e-6
 
 
 @dataclass(frozen=True)
@@ -42,69 +34,23 @@ class Judged:
     solutions: dict[str, int]
 
 
-def apart(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """The largest difference of angles between each configuration of a and each of b, by the
-    shorter way round.
-    """
-    return np.abs((a[:, None] - b[None] + np.pi) % (2 * np.pi) - np.pi).max(axis=-1)
-
-
-def equal(a: np.ndarray, b: np.ndarray) -> bool:
-    """Whether each configuration of a is one of b, each of b one of a, and there are as many of
-    them.
-    """
-    if not len(a) or len(a) != len(b):
-        return len(a) == len(b)
-    near = apart(a, b) <= SAME
-    return bool(near.any(axis=0).all() and near.any(axis=1).all())
-
-
-def eaik_sets(chain: Chain, T: np.ndarray) -> tuple[list[np.ndarray], float]:
-    """EAIK's solutions of each target, each once, and its own time (processor seconds) for all of
-    them.
-    """
-    from eaik.IK_HP import HPRobot
-
-    form = chain.to_hp()
-    robot = HPRobot(form.H, form.P)
-    targets = T.copy()
-    targets[:, :3, :3] = T[:, :3, :3] @ form.R_nt.T
-    start = time.process_time()
-    answers = [robot.IK(target) for target in targets]
-    seconds = time.process_time() - start
-    sets = []
-    for answer, target in zip(answers, T, strict=True):
-        Q = np.asarray(answer.Q, float).reshape(-1, chain.dof)
-        Q = Q[np.abs(chain.fk(Q) - target).max(axis=(1, 2)) <= ITS_OWN]
-        sets.append(Q[[not (apart(Q[:k], Q[k : k + 1]) <= SAME).any() for k in range(len(Q))]])
-    return sets, seconds
-
-
-def errors(chain: Chain, result: AllSolutions, T: np.ndarray) -> tuple[float, float]:
-    """The largest distance (m) and angle (rad) between solutions' poses, by `fk`, and their
-    targets.
-    """
-    Q = result.q
-    ours, wanted = chain.fk(Q), np.repeat(T, result.counts, axis=0)
-    turn = pk.so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ wanted[:, :3, :3])
-    return (
-        float(np.linalg.norm((ours - wanted)[:, :3, 3], axis=1).max()),
-        float(np.linalg.norm(turn, axis=1).max()),
-    )
-
-
 def judged(name: str, count: int) -> Judged:
     """One arm at targets of configurations drawn from one turn of every joint."""
     chain = pk.load(name).chain()
     T = chain.fk(np.random.default_rng(SEED).uniform(-np.pi, np.pi, (count, chain.dof)))
-    theirs, seconds = eaik_sets(chain, T)
-    times, results = {"EAIK alone": seconds / count}, {}
+    eaik = Eaik(chain)
+    targets = eaik.targets(T)
+    start = time.process_time()
+    answers = eaik.each(targets)
+    times, results = {"EAIK alone": (time.process_time() - start) / count}, {}
+    own, counts = eaik.own(answers, T)
+    theirs = np.split(own, np.cumsum(counts)[:-1])
     for method in ("search", "closed"):
-        ik_all(chain, T[:1], method=method, limits=False)
+        pk.ik_all(chain, T[:1], method=method, limits=False)
         start = time.process_time()
-        results[method] = ik_all(chain, T, method=method, limits=False)
+        results[method] = pk.ik_all(chain, T, method=method, limits=False)
         times[method] = (time.process_time() - start) / count
-    worst = [errors(chain, result, T) for result in results.values()]
+    worst = [errors(chain, result.q, result.counts, T) for result in results.values()]
     same = sum(equal(a, b) for a, b in zip(results["search"].solutions, theirs, strict=True))
     numbers = {method: int(result.counts.sum()) for method, result in results.items()}
     position, rotation = (max(pair) for pair in zip(*worst, strict=True))
@@ -115,7 +61,7 @@ def judged(name: str, count: int) -> Judged:
         same,
         count,
         times,
-        numbers | {"EAIK alone": sum(map(len, theirs))},
+        numbers | {"EAIK alone": len(own)},
     )
 
 
@@ -150,6 +96,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                 max(one.position, one.rotation), 1e-10, "m and rad",
             ),
         ]  # fmt: skip
+    timed, tables = measured_times(quick, say)
     rows = [
         (ARMS[one.name], {"search": "search alone", "closed": "closed form, tried down"}.get(how, how),
          one.solutions[how], 1e3 * one.seconds[how])
@@ -160,12 +107,13 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         "Targets are poses of configurations drawn evenly from one turn of every joint, without limits. Two sets are "
         f"equal where each solution of one is one of the other within {SAME:g} rad. EAIK's own time is that of its "
         "calls alone, without its least-squares answers being sorted out.",
-        figures=figures,
+        figures=timed + figures,
         tables=[
+            *tables,
             Table(
                 "Solutions found, and processor time",
                 ("arm", "how", "solutions", "ms a target"),
                 rows,
-            )
+            ),
         ],
     )

@@ -55,9 +55,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     with opened_files() as opened, warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", PoekinWarning)
         for i, (name, path) in enumerate(robots.items()):
-            start = time.perf_counter()
+            start = time.process_time()
             try:
-                done.append((name, validate(path, samples=samples), time.perf_counter() - start))
+                done.append((name, validate(path, samples=samples), time.process_time() - start))
             except PoekinError as error:
                 broken.append((name, str(error)))
             if (i + 1) % 10 == 0:
@@ -101,7 +101,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
             Table(
                 "Robots",
                 ("robot", "chains", "longest (joints)", "pose ÷ R", "J space ÷ R", "J body ÷ R", "J hybrid ÷ R",
-                 "worst chain ends at", "time (s)"),
+                 "worst chain ends at", "processor time (s)"),
                 [_row(name, v, seconds) for name, v, seconds in done],
                 folded=True,
             )

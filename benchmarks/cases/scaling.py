@@ -4,7 +4,6 @@ compiled, Pinocchio.
 
 from __future__ import annotations
 
-import os
 import time
 from collections import deque
 from collections.abc import Callable
@@ -18,6 +17,7 @@ from .. import exact_arm, peers
 from ..draw import lines
 from ..harness import Case, Timed, in_turn
 from ..report import Picture, Table, Topic
+from ..workers import processors
 
 JOINTS = (1, 2, 3, 5, 7, 10, 15, 20, 30, 50)
 SIZES = (1, 10, 100, 1000, 10_000, 100_000, 1_000_000)
@@ -140,9 +140,7 @@ def _at_sizes(
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (sizes[-1], chain.dof))
     T, J = _arrays((sizes[-1],), chain.dof)
     judge = Judge(chain, q)
-    processors = (
-        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    )
+    cores = processors()
     rows, threads = [], []
     for size in sizes:
         some, out = q[:size], (T[:size], J[:size])
@@ -161,7 +159,7 @@ def _at_sizes(
             )
         )
         if size >= 10_000:
-            both = [case("one thread", arm), case(f"{processors} threads", parallel)]
+            both = [case("one thread", arm), case(f"{cores} threads", parallel)]
             threads.append((size, _measured(both, rounds=rounds, clock=time.perf_counter)))
         say(f"{size} at once")
     return rows, threads

@@ -20,8 +20,8 @@ from . import (
 )
 from .peer import Arm, Found, Group, Kinematics, Peer, attempt, find, one_line
 
-__all__ = ["OPTIONAL", "STANDARD", "Arm", "Found", "Group", "Kinematics", "Peer", "attempt", "chosen", "find",
-           "names", "one_line", "use"]  # fmt: skip
+__all__ = ["OPTIONAL", "STANDARD", "Arm", "Found", "Group", "Kinematics", "Peer", "attempt", "chosen",
+           "chosen_names", "find", "names", "one_line", "use"]  # fmt: skip
 
 STANDARD: dict[str, Peer] = {
     "pinocchio": pinocchio.PEER,
@@ -50,6 +50,11 @@ def use(words: Sequence[str]) -> None:
     groups = {"standard": list(STANDARD), "all": list(every)}
     wanted = {name for word in words for name in groups.get(word, [word])}
     _chosen[:] = [peer for name, peer in every.items() if name in wanted]
+
+
+def chosen_names() -> list[str]:
+    """Names of the peers of this run, for `use` in another process."""
+    return [name for name, peer in (STANDARD | OPTIONAL).items() if peer in _chosen]
 
 
 def chosen() -> list[Found]:

@@ -14,7 +14,7 @@ from benchmarks import peers, subjects
 from benchmarks.cases import conformance
 from benchmarks.page import html
 from benchmarks.report import Topic
-from benchmarks.subjects import FAULTS, LIBRARIES, Poekin
+from benchmarks.subjects import FAULTS, LIBRARIES, Poekin, held
 from benchmarks.subjects.__main__ import main
 from poekin.testing.conform import LAWS, Case, Grade, Subject, applicable, conform
 from poekin.testing.conform.laws.small_urdf import UrdfJoint, chain
@@ -68,18 +68,17 @@ def test_every_peer_is_a_subject_unless_it_has_nothing_of_one():
 
 def test_the_page_shows_grades_counterexamples_and_what_could_not_be_run():
     peers.use(["standard"])
-    said = []
     reports = [
-        conformance._held(Poekin, 2, 30.0, said.append),
+        held.held(Poekin, 2, 30.0, "poekin"),
         conform(FAULTS["d"][0], examples=60),
         "gone: broken",
     ]
-    caught = [("d", "exp = I", reports[1]["so3_exp"], 1.0)]
+    caught = [held.Caught("d", "exp = I", reports[1]["so3_exp"], 1.0)]
     figures = conformance._figures(reports, caught, 7, 0, 0)
     assert [figure.verdict for figure in figures] == [True, True, True]
     assert figures[0].text == "1 of 1"
     assert f"{len(LAWS)} laws" in figures[2].note
-    late = conformance._figures(reports, [(*caught[0][:3], 61.0)], 7, 1, 2)
+    late = conformance._figures(reports, [caught[0]._replace(seconds=61.0)], 7, 1, 2)
     assert [figure.verdict for figure in late] == [False, False, True]
     tables = conformance._tables(reports, caught)
     assert "gone: broken" in tables[0].caption
@@ -92,11 +91,12 @@ def test_the_page_shows_grades_counterexamples_and_what_could_not_be_run():
 
 def test_the_false_findings_are_counted_over_so_many_examples(monkeypatch, capsys):
     laws = [law for law in LAWS if law.name in ("so3_exp", "fk")]
-    monkeypatch.setattr(conformance, "LAWS", laws)
+    monkeypatch.setattr(held, "applicable", lambda subject: laws)
     said = []
-    total, false, not_exact = conformance.false_findings(20, said.append)
+    total, false, not_exact = held.false_findings(held.tries(20), said.append)
     assert total >= 20
     assert (false, not_exact) == (0, 0)
+    assert len(said) == 2 * len(laws)
     assert main(["1"]) == 0
     monkeypatch.setattr(subjects, "Angular", FAULTS["d"][0])
     assert main(["200"]) == 1
@@ -104,5 +104,5 @@ def test_the_false_findings_are_counted_over_so_many_examples(monkeypatch, capsy
 
 
 def test_a_subject_that_cannot_be_made_is_said_and_ends_nothing():
-    said = str(conformance._held(SimpleNamespace, 1, 1.0, lambda line: None, "x"))
+    said = str(held.held(SimpleNamespace, 1, 1.0, "x"))
     assert said.startswith("x: broken: InputError")
