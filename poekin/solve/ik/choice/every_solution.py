@@ -60,4 +60,4 @@ def _is_solved(problem: IKProblem) -> bool:
     free = ~problem.domain.locked
     if free.sum() > 6:
         return False
-    return solvers_for(problem.fast.chain, values, free, "auto") is not None
+    return bool(solvers_for(problem.fast.chain, values, free, "auto"))
