@@ -6,7 +6,7 @@ of such scalars, as it takes numbers and rows of numbers. Plain Python takes one
 
 
 def at_once():
-    """How many numbers a scalar of `rows` holds."""
+    """Number of numbers that a scalar of `rows` holds."""
     return 1
 
 

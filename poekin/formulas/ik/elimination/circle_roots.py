@@ -74,7 +74,7 @@ def _points(angles):
 
 
 def _waves():
-    """What a value at each of the samples adds to each coefficient."""
+    """Weights of the value at each sample in each coefficient."""
     share = 2.0 / SAMPLES
     table = []
     for j in range(SAMPLES):
@@ -280,7 +280,7 @@ def is_found(step, slope, steepest):
 
 
 def _crossing(b, at):
-    """Where coefficients with one change of sign pass 0, as a share of their segment."""
+    """Place at which coefficients with one change of sign pass 0, as a share of their segment."""
     j = 1
     while b[at + j] * b[at] > 0.0:
         j += 1
