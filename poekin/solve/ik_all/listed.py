@@ -105,10 +105,11 @@ def _rule(solver: Solver) -> Array:
 def _listing(q: Array, numbers: Array, info: Array, clear: np.ndarray) -> Listing:
     """The listing of the targets that are clear, numbered as they come."""
     found, within = info[clear].astype(int).T
-    there = np.arange(q.shape[1]) < np.where(clear, info[:, 1], 0.0)[:, None]
-    listed = numbers[there]
+    # one flat index takes half the time of a mask
+    there = np.flatnonzero(np.arange(q.shape[1]) < np.where(clear, info[:, 1], 0.0)[:, None])
+    listed = numbers.reshape(-1, numbers.shape[2])[there]
     places = Places(
-        q=q[there],
+        q=q.reshape(-1, q.shape[2])[there],
         owner=np.repeat(np.arange(len(within)), within),
         number=whole_numbers(listed[:, 2]),
         within=within,
