@@ -70,47 +70,56 @@ class Heading(NamedTuple):
     unit: str
 
 
-def heading(word: str, names: Sequence[str]) -> Heading:
-    """Name and unit of a word of a header; of none of the names, the word itself."""
-    exact = _named(word, names)
+def headings(words: Sequence[str], names: Sequence[str]) -> list[Heading]:
+    """Name and unit of each word of a header; of none of the names, the word itself."""
+    known = set(names)
+    folded: dict[str, list[str]] = {}
+    for name in names:
+        folded.setdefault(name.casefold(), []).append(name)
+
+    def named(word: str) -> str:
+        """The name that a word is, in another case where only one is; "" for none."""
+        if word in known:
+            return word
+        alike = folded.get(word.casefold(), [])
+        return alike[0] if len(alike) == 1 else ""
+
+    return [_heading(word, named) for word in words]
+
+
+def _heading(word: str, named: Callable[[str], str]) -> Heading:
+    exact = named(word)
     if exact:
         return Heading(exact, "")
     for pattern in (_BRACKETS, _SUFFIX):
         found = pattern.fullmatch(word)
         if found and found[2].strip().lower() in _UNITS:
             name = found[1].rstrip()
-            return Heading(_named(name, names) or name, _UNITS[found[2].strip().lower()])
+            return Heading(named(name) or name, _UNITS[found[2].strip().lower()])
     return Heading(word, "")
-
-
-def _named(word: str, names: Sequence[str]) -> str:
-    """The name that a word is, in another case where only one is; "" for none."""
-    if word in names:
-        return word
-    folded = word.casefold()
-    alike = [name for name in names if name.casefold() == folded]
-    return alike[0] if len(alike) == 1 else ""
 
 
 def order(headings: Sequence[Heading], columns: Columns, where: str) -> list[int]:
     """Indices of the columns in the order of their names. Raises: UnknownName, InputError."""
     words = [heading.name for heading in headings]
     names = columns.names
+    known = {*names, *columns.besides}
     for word in words:
-        if word not in names and word not in columns.besides:
+        if word not in known:
             raise UnknownName(
                 f"{where}: {quote(word)} is neither a number nor a {columns.what};"
                 f" {suggest(word, names)}"
             )
-    missing = [n for n in names if n not in words]
-    if missing or len(set(words)) != len(words):
+    place = {word: k for k, word in enumerate(words)}
+    missing = [n for n in names if n not in place]
+    if missing or len(place) != len(words):
         fault = "a name appears twice"
         if missing:
             fault = f"{quote(missing[0])} is missing"
         raise InputError(
             f"{where}: the header has to name each of the {len(names)} {columns.what}s once; {fault}"
         )
-    return [words.index(n) for n in names]
+    return [place[n] for n in names]
 
 
 def conversions(

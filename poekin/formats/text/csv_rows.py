@@ -166,7 +166,7 @@ def _chosen(cells: Sequence[str], columns: Columns, here: str) -> _Chosen:
     """The columns that a file is read by, of its first line."""
     words = [cell.strip() for cell in cells]
     known = (*columns.first, *columns.names, *columns.besides)
-    headings = [csv_header.heading(word, known) for word in words]
+    headings = csv_header.headings(words, known)
     given = {heading.name for heading in headings}
     if columns.first and given.issuperset(columns.first):
         columns = columns.with_first()

@@ -1,4 +1,6 @@
-"""Solutions of targets whose branches in closed form are clear of one another, by one kernel."""
+"""Solutions of targets whose branches, in closed form or by elimination, are clear of one another: by
+one kernel.
+"""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ import pytest
 
 from poekin.errors import InputError, UnknownName
 from poekin.formats.text import csv_rows
-from poekin.formats.text.csv_header import Columns, Heading, heading
+from poekin.formats.text.csv_header import Columns, Heading, headings, order
 
 POSE = Columns(("X", "Y", "A", "q"), "column", ("mm", "mm", "deg", ""))
 
@@ -42,14 +42,14 @@ def read(text, columns=POSE):
     ],
 )
 def test_a_word_of_a_header_is_a_name_and_a_unit(word, expected):
-    assert heading(word, (*POSE.names, "arm_rad")) == Heading(*expected)
+    assert headings([word], (*POSE.names, "arm_rad")) == [Heading(*expected)]
 
 
 def test_another_case_is_taken_where_one_name_fits_only():
-    assert heading("a", ("A", "b")).name == "A"
-    assert heading("a", ("A", "a")).name == "a"
-    assert heading("é", ("É", "e")).name == "É"
-    assert heading("joint_a", ("JOINT_A", "Joint_a")).name == "joint_a"
+    assert headings(["a"], ("A", "b"))[0].name == "A"
+    assert headings(["a"], ("A", "a"))[0].name == "a"
+    assert headings(["é"], ("É", "e"))[0].name == "É"
+    assert headings(["joint_a"], ("JOINT_A", "Joint_a"))[0].name == "joint_a"
 
 
 def test_units_of_a_header_are_made_those_that_are_wanted():
@@ -120,5 +120,13 @@ def test_columns_at_the_end_may_be_left_out_together():
 def test_the_time_that_a_word_takes_grows_as_its_length():
     blanks = " " * 2**18  # three times after each other in a pattern, they would take days
     for word in (f"{blanks}({blanks}", f"X{blanks}[{blanks}mm", "(" * 2**18, "_" * 2**18):
-        assert heading(word, POSE.names) == (word, "")
-    assert heading(f"X{blanks}[{blanks}mm{blanks}]", POSE.names) == ("X", "mm")
+        assert headings([word], POSE.names) == [(word, "")]
+    assert headings([f"X{blanks}[{blanks}mm{blanks}]"], POSE.names) == [("X", "mm")]
+
+
+def test_the_time_that_a_header_takes_grows_as_its_number_of_words():
+    # each word held against each name, a hundred thousand would take minutes
+    names = tuple(f"x{k}" for k in range(100_000))
+    found = headings(names, names)
+    assert [one.name for one in found] == list(names)
+    assert order(found, Columns(names, "column"), "here") == list(range(len(names)))

@@ -1,5 +1,5 @@
-"""All solutions of targets whose branches in closed form are clear of one another: sharpened, brought
-into the limits and in order. Importing this module imports Numba.
+"""All solutions of targets whose branches, in closed form or by elimination, are clear of one another:
+sharpened, brought into the limits and in order. Importing this module imports Numba.
 
 Of a target that is not clear nothing is listed: where solutions are one or infinitely many, `search`
 of `ik_all_kernel` tells them apart.

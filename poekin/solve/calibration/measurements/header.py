@@ -97,9 +97,9 @@ def _headings(
     """Names and units of a header's words, of those that a file may have."""
     measured = [name for layout in layouts for name in layout.columns]
     known = tuple(dict.fromkeys((*chain.q_names, *numbered(chain.dof), *measured)))
-    return [
-        Heading(word, "") if word in ignore else csv_header.heading(word, known) for word in words
-    ]
+    passed_over = set(ignore)
+    pairs = zip(words, csv_header.headings(words, known), strict=True)
+    return [Heading(word, "") if word in passed_over else heading for word, heading in pairs]
 
 
 def _header(
