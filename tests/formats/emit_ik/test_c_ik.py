@@ -15,6 +15,7 @@ from poekin.errors import InputError
 from poekin.formats import emit
 from poekin.formats.emit.ik.closed_arm import closed_arm
 from poekin.formats.emit.ik.ik_vectors import solutions
+from poekin.formulas.inverse import confirmed
 from poekin.groups import se3
 from tests.solve.ik_all import closed_form_arms as arms
 
@@ -92,7 +93,7 @@ def build(request, tmp_path_factory):
 
 def sizes(chain):
     angles = [kind == "revolute" for kind in chain.kinds]
-    return np.append(np.where(angles, 2 * np.pi, 0.0), chain.reach)
+    return np.append(np.where(angles, 2 * np.pi, 0.0), [chain.reach, confirmed.OUTSIDE])
 
 
 def apart(a, b, periods: np.ndarray | float = 2 * np.pi):
@@ -160,7 +161,7 @@ def finds_all(chain, build):
     built = build(emit.c_ik(chain, name="arm"))
     assert built.selftest()[0] == 0
     form = closed_arm(chain)
-    periods = sizes(chain)[:-1]
+    periods = sizes(chain)[: chain.dof]
     half = np.where(periods > 0.0, np.pi, 0.5 * chain.reach)
     q = np.random.default_rng(3).uniform(-half, half, (100, chain.dof))
     for k, (known, T) in enumerate(zip(q, chain.fk(q), strict=True)):

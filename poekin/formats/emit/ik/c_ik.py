@@ -86,12 +86,14 @@ def c_ik(
         )
     word = f"{identifier(name)}_ik"
     head = _head(word, arm, form, origin)
-    sizes = np.append(np.where(angle_mask(arm), 2.0 * np.pi, 0.0), arm.reach)
+    periods = np.where(angle_mask(arm), 2.0 * np.pi, 0.0)
+    outside = confirmed.OUTSIDE if near is None else confirmed.OUTSIDE_NEARBY
+    sizes = np.append(periods, [arm.reach, outside])
     return CSource(
         word,
         _header(word, head, arm.dof, form.rows),
         _source(word, head, arm, form, sizes),
-        selftest(word, sizes[:-1], targets(arm, form, sizes)),
+        selftest(word, periods, targets(arm, form, sizes)),
     )
 
 
