@@ -237,6 +237,13 @@ def test_it_needs_math_h_alone_and_no_memory():
     assert all(text.isascii() for text in source.files.values())
 
 
+@pytest.mark.parametrize("name", ARMS)
+def test_no_number_of_the_arm_that_is_0_or_1_but_for_rounding_is_multiplied_by(name):
+    text = emit.c_ik(pk.load(name).chain(), name="p").source
+    # the rounding of a cosine of a right angle, 6e-17, is in each of these arms
+    assert re.findall(r"\* -?[01]\.0(?!\d)|e-1[6-9] \*|\* -?\d\.\d+e-1[6-9]", text) == []
+
+
 def test_a_hostile_name_stays_in_its_comment(build):
     hostile = "*/ int main(void) { return 1; } /* ??/"
     chain = pk.load("puma560").chain().replace(tip=hostile, base=hostile)
