@@ -54,7 +54,7 @@ class CValue:
 
     @property
     def told(self) -> tuple[CValue | None, ...]:
-        """What the arm tells of the items of a tuple."""
+        """Items of a tuple that the arm tells, None for the others."""
         return tuple(item if item.known and item.fixed else None for item in self.parts)
 
     def within(self, binds: int) -> str:

@@ -78,7 +78,7 @@ class Writer:
         self.lines.append("    " * self.indent + text)
 
     def mark(self) -> tuple[int, set[str], dict[Instance, None], int]:
-        """What `back_to` needs to forget what is written from here on."""
+        """State of the text, to which `back_to` brings it back."""
         return len(self.lines), set(self.read), dict(self.called), self.temporaries
 
     def back_to(self, mark: tuple[int, set[str], dict[Instance, None], int]) -> None:

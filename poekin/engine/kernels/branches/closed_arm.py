@@ -123,7 +123,7 @@ def store(arm, x, margin, row):
 
 
 def _away(arm, x):
-    """How far from 0 the joints are that the arm does not have."""
+    """Largest coordinate of the joints that the arm does not have."""
     away = 0.0
     for i in range(6):
         if arm[i, COLUMN] < 0:
