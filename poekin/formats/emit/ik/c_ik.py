@@ -59,7 +59,8 @@ def c_ik(
 
     Notes
     -----
-    The functions are written from `poekin.formulas.ik` itself, one for each formula. Every solution
+    The functions are written from `poekin.formulas.ik` itself, one for each formula and what the arm
+    tells of its arguments: products with 0 and 1 are left out. Every solution
     is held against the arm's own pose (`emit.c`), the last digits come from Newton's rule, and
     equal ones are listed once.
     Of a continuum of solutions some are listed. Of an arm nearby, branches that it has and `chain`
