@@ -76,6 +76,8 @@ def free_chain(chain: Chain, values: Array) -> Chain:
     coupling = chain.nontrivial_coupling
     C = chain.coupling
     moves = (C[:, free] != 0).any(axis=1)
+    if free.all() and moves.all():
+        return chain
     x = C[:, ~free] @ values[~free] + chain.offset
     screws = np.empty_like(chain.screws)
     P = np.eye(4)

@@ -91,3 +91,11 @@ def test_limits_of_joints_stay_theirs_where_a_coordinate_of_a_sum_is_locked():
     assert left.joint_names == ("joint2",)
     np.testing.assert_allclose(left.offset, [0.5])
     np.testing.assert_allclose(left.joint_limits, [[-1, 2]])
+
+
+@given(chain_strategies.chains(1, 7, coupled=False))
+def test_an_arm_of_which_nothing_is_locked_is_left_as_it_is(chain):
+    free = np.full(chain.dof, np.nan)
+    assert free_chain(chain, free) is chain
+    free[0] = 0.0
+    assert free_chain(chain, free) is not chain

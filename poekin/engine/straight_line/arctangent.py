@@ -2,17 +2,20 @@
 over many points may take some at once.
 
 The angle of the smaller coordinate over the larger is that of 0, 1/2 or 1, whichever is near, and
-what is left, |t| <= sqrt(5) - 2, goes through its series.
+what is left, |t| <= sqrt(5) - 2, goes through the series of `formulas.lie.arctangent`.
 Absolute error at most 6e-16 (tests/engine/straight_line/test_arctangent.py).
 """
 
 import math
 
-_FIRST = 0.2360679774997897  # tan(atan(1 / 2) / 2)
+from ...formulas.lie.arctangent import NARROW, NARROW_SERIES
+
+_FIRST = NARROW  # tan(atan(1 / 2) / 2)
 _SECOND = 0.7207592200561265  # tan((atan(1 / 2) + atan(1)) / 2)
 _HALF = math.atan(0.5)
 _REST = math.atan(1.0) - math.atan(0.5)
 _TINY = 1e-300
+_C = NARROW_SERIES
 
 
 def atan2(y, x):
@@ -27,7 +30,7 @@ def atan2(y, x):
     second = _is_less(_SECOND * large - small)
     near = 0.5 * (first + second)
     t = (small - near * large) / (large + near * small)
-    angle = (first * _HALF + second * _REST) + t * (1.0 - _series(t * t))
+    angle = (first * _HALF + second * _REST) + t * (1.0 + _series(t * t))
     back = _is_less(x)
     start = (0.5 * math.pi) * steep + math.pi * (flat * back)
     angle = start + (flat - steep) * (1.0 - 2.0 * back) * angle
@@ -40,10 +43,8 @@ def _is_less(x):
 
 
 def _series(z):
-    """1 - atan(t) / t = z / 3 - z^2 / 5 + ... - z^12 / 25, z = t^2."""
+    """atan(t) / t - 1, z = t^2."""
     w = z * z
-    v = w * w
-    first = 1.0 / 3.0 - (1.0 / 5.0) * z + w * (1.0 / 7.0 - (1.0 / 9.0) * z)
-    second = 1.0 / 11.0 - (1.0 / 13.0) * z + w * (1.0 / 15.0 - (1.0 / 17.0) * z)
-    third = 1.0 / 19.0 - (1.0 / 21.0) * z + w * (1.0 / 23.0 - (1.0 / 25.0) * z)
-    return z * (first + v * (second + v * third))
+    first = _C[0] + _C[1] * z + w * (_C[2] + _C[3] * z)
+    second = _C[4] + _C[5] * z + w * (_C[6] + _C[7] * z)
+    return z * (first + w * w * second)

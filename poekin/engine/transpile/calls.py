@@ -18,7 +18,6 @@ from .values import (
     UNARY,
     Argument,
     CValue,
-    Instance,
     InstanceSource,
     as_double,
     binary,
@@ -49,7 +48,6 @@ class CallWriter(ExpressionWriter):
         super().__init__(source, units.structures)
         self.units = units
         self.written: set[str] = set()
-        self.called: dict[Instance, None] = {}
 
     def _call(self, node: ast.Call) -> CValue:
         kind, text = self.call(node)
@@ -112,11 +110,13 @@ class CallWriter(ExpressionWriter):
 
     def _instance(
         self, node: ast.Call, function: Callable, values: list[CValue]
-    ) -> tuple[CType | None, str]:
+    ) -> tuple[CType | None, str | CValue]:
         """The call of a function that is written for these types."""
         instance = self.units.instance(function, [_argument(value) for value in values])
         if instance is None:
             self.refuse(node, f"a call of {function.__name__} by itself")
+        if isinstance(instance.told, CValue) and not instance.written:
+            return None, instance.told
         self.called[instance] = None
         texts = []
         for name, value in zip(instance.parameters, values, strict=True):
@@ -126,7 +126,10 @@ class CallWriter(ExpressionWriter):
                 self.written.add(value.root)
             if name in instance.runtime:
                 texts.append(value.text)
-        return instance.returns, f"{instance.name}({', '.join(texts)})"
+        text = f"{instance.name}({', '.join(texts)})"
+        if instance.returns is None or not isinstance(instance.told, tuple):
+            return instance.returns, text
+        return None, self.in_parts(self.held(CValue(instance.returns, text)), instance.told)
 
     def global_constant(self, name: str, value: Any, kind: CType) -> CValue:
         """A tuple of numbers of a module by its name in C."""
@@ -153,9 +156,13 @@ class CallWriter(ExpressionWriter):
 
 
 def _argument(value: CValue) -> Argument:
-    """A value as an argument: what the arm tells of flags and tables is written into the function."""
-    told = value.fixed and (isinstance(value.type, CTable) or _is_flag(value.type))
-    return Argument(value.type, value if told else None)
+    """A value as an argument: what the arm tells of flags, tables and tuples is written into the
+    function, and so are known integers.
+    """
+    kind = value.type
+    told = value.fixed and (isinstance(kind, (CTable, CTuple)) or _is_flag(kind))
+    told = told or (value.known and kind == INT)
+    return Argument(kind, value if told else None)
 
 
 def _is_flag(kind: CType) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import operator
 
+from ..straight_line.trace import folded
 from .c_types import BOOL, DOUBLE, INT, CRow, CScalar, CTable, CTuple, unify
 from .values import (
     AND,
@@ -67,7 +68,8 @@ class ExpressionWriter(Writer):
             return self.known[name]
         if name in self.types:
             self.read.add(name)
-            return CValue(self.types[name], self.c_name(name), root=self.roots.get(name, ""))
+            value = CValue(self.types[name], self.c_name(name), root=self.roots.get(name, ""))
+            return self.in_parts(value, self.told[name]) if name in self.told else value
         if self.source.stores.get(name, 0) or name in self.source.parameters:
             self.refuse(node, f"the use of {name} before it has a value")
         return self.constant(node, self.python_value(node), name)
@@ -113,9 +115,13 @@ class ExpressionWriter(Writer):
         return CValue(value.type, f"-{value.within(UNARY + 1)}", UNARY)
 
     def _binop(self, node: ast.BinOp) -> CValue:
+        mark = self.mark()
         a = self.expression(node.left)
         b = self.expression(node.right)
-        return self.arithmetic(node, node.op, a, b)
+        value = self.arithmetic(node, node.op, a, b)
+        if value.known:
+            self.back_to(mark)
+        return value
 
     def arithmetic(self, node: ast.AST, op: ast.operator, a: CValue, b: CValue) -> CValue:
         """a op b of numbers, or the sum of two tuples."""
@@ -126,9 +132,13 @@ class ExpressionWriter(Writer):
         if entry is None or not numbers:
             self.refuse(node, f"the operator {type(op).__name__} here")
         sign, binds, function = entry
-        if a.known and b.known and b.constant != 0:
+        if a.known and b.known and (b.constant != 0 or binds == SUM):
             value = function(a.constant, b.constant)
             return self.constant(node, value, "", a.fixed or b.fixed)
+        if DOUBLE in (a.type, b.type) and (a.fixed or b.fixed):
+            found = self._folded(op, a, b)
+            if found is not None:
+                return found
         whole = a.type != DOUBLE and b.type != DOUBLE and not isinstance(op, ast.Div)
         if isinstance(op, ast.Mod):
             if not whole or not b.known or b.constant <= 0:
@@ -139,6 +149,22 @@ class ExpressionWriter(Writer):
         if whole:
             return binary(sign, a, b, INT, binds)
         return binary(sign, as_double(a), as_double(b), DOUBLE, binds)
+
+    def _folded(self, op: ast.operator, a: CValue, b: CValue) -> CValue | None:
+        """a op b of finite numbers where one is 0, 1 or -1 but for rounding, as the arm tells."""
+        x = folded(a.constant) if a.fixed else None
+        y = folded(b.constant) if b.fixed else None
+        if isinstance(op, ast.Mult) and 0.0 in (x, y):
+            return scalar(0.0, DOUBLE, True)
+        if isinstance(op, ast.Mult) and x in (1.0, -1.0):
+            return _signed(b, x == -1.0)
+        if isinstance(op, (ast.Mult, ast.Div)) and y in (1.0, -1.0):
+            return _signed(a, y == -1.0)
+        if isinstance(op, (ast.Add, ast.Sub)) and y == 0.0:
+            return as_double(a)
+        if isinstance(op, (ast.Add, ast.Sub)) and x == 0.0:
+            return _signed(b, isinstance(op, ast.Sub))
+        return None
 
     def _compare(self, node: ast.Compare) -> CValue:
         operands = [self.expression(node.left)]
@@ -226,3 +252,13 @@ class ExpressionWriter(Writer):
         a = self.converted(node, a, kind)
         b = self.converted(node, b, kind)
         return CValue(kind, f"{test.within(OR)} ? {a.within(OR)} : {b.within(OR)}", 0)
+
+
+def _signed(value: CValue, negative: bool) -> CValue:
+    """A number or its negative, as a double."""
+    value = as_double(value)
+    if not negative:
+        return value
+    if value.known:
+        return scalar(-value.constant, DOUBLE, value.fixed)
+    return CValue(DOUBLE, f"-{value.within(UNARY + 1)}", UNARY)

@@ -45,6 +45,7 @@ class FunctionWriter(CallWriter):
         instance.written = {name for name in self.written if name in self.arguments}
         instance.runtime = [name for name, given in self.arguments.items() if given.told is None]
         instance.returns = self.returns
+        instance.tell(self.results)
         instance.called = list(self.called)
         returned = "void" if self.returns is None else self.structures.spell(self.returns)
         parameters = ", ".join(self._parameter(name) for name in instance.runtime)
@@ -66,6 +67,8 @@ class FunctionWriter(CallWriter):
         self.top = {}
         self.declared = set()
         self.known = {}
+        self.told = {}
+        self.results = []
         for name, given in self.arguments.items():
             if given.told is not None:
                 self.known[name] = given.told
@@ -146,6 +149,7 @@ class FunctionWriter(CallWriter):
         if kind is None or isinstance(kind, (CRow, CTable)):
             self.refuse(node, "a result of two types, or a row as a result,")
         self.returns = kind
+        self.results.append(value)
         self.put(f"return {self.converted(node, value, kind).text};")
 
     def _assign(self, node: ast.Assign) -> None:
@@ -163,12 +167,11 @@ class FunctionWriter(CallWriter):
 
     def _name_value(self, node: ast.Assign, name: str) -> None:
         """name = value, left out where nothing reads it."""
-        mark = (len(self.lines), set(self.read), dict(self.called), self.temporaries)
+        mark = self.mark()
         value = self.expression(node.value)
         if self.live is not None and name not in self.live and not value.known:
             if not isinstance(node.value, ast.Call):
-                del self.lines[mark[0] :]
-                self.read, self.called, self.temporaries = mark[1:]
+                self.back_to(mark)
                 return
             self.put(f"(void){value.text};")
             return
@@ -177,7 +180,8 @@ class FunctionWriter(CallWriter):
     def bind(self, node: ast.AST, name: str, value: CValue) -> None:
         """Give a name a value."""
         once = self.source.stores[name] == 1 and name not in self.source.parameters
-        if once and value.known and (value.fixed or isinstance(value.type, (CRow, CTable))):
+        stays = value.fixed or value.type == INT or isinstance(value.type, (CRow, CTable))
+        if once and value.known and stays:
             self.known[name] = value
             return
         self.known.pop(name, None)
@@ -193,6 +197,8 @@ class FunctionWriter(CallWriter):
         elif name in self.arguments and self.types[name] != kind:
             self.refuse(node, f"the parameter {name} for values of two types")
         self.types[name] = kind
+        if once and any(value.told):
+            self.told[name] = value.told
         text = self.converted(node, value, kind).text
         parameter = name in self.arguments and self.arguments[name].told is None
         if parameter or name in self.declared or self.source.homes[name] != self.blocks:

@@ -40,7 +40,9 @@ class TranslationUnit:
         self._constants: dict[str, str] = {}
 
     def table(self, name: str, values: np.ndarray) -> Argument:
-        """A constant table (n, m), or row (n,), as an argument: functions are written for it."""
+        """A constant table (n, m), or row (n,), as an argument: functions are written for it, and its
+        numbers that are 0 or +-1 but for rounding are multiplied by and added nowhere.
+        """
         values = np.array(values, np.float64)
         full = f"{self.prefix}_{name}"
         rows = [", ".join(map(number, row)) for row in np.atleast_2d(values).tolist()]

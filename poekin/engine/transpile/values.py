@@ -52,6 +52,11 @@ class CValue:
         """Whether the text may stand twice: a name, a member or a number."""
         return self.binds == PRIMARY and "(" not in self.text
 
+    @property
+    def told(self) -> tuple[CValue | None, ...]:
+        """Items of a tuple that the arm tells, None for the others."""
+        return tuple(item if item.known and item.fixed else None for item in self.parts)
+
     def within(self, binds: int) -> str:
         """The text as an operand of an operator."""
         if self.binds < binds:
@@ -109,7 +114,7 @@ def member(value: CValue, k: int) -> CValue:
     constant = value.constant[k] if value.known else UNKNOWN
     item = kind.items[k]
     if value.known and isinstance(item, CScalar):
-        return scalar(constant, item, value.fixed and item != DOUBLE)
+        return scalar(constant, item, value.fixed)
     return CValue(item, f"{value.within(PRIMARY)}.{field}", PRIMARY, constant, value.fixed)
 
 
@@ -136,7 +141,8 @@ class Argument:
 @dataclass(eq=False)
 class Instance:
     """One function of C. `runtime` are the parameters that it has in C, `written` the pointers that
-    it writes to, and `called` the functions that it calls.
+    it writes to, `told` what is known of its value or of that value's items, and `called` the
+    functions that it calls.
     """
 
     name: str
@@ -146,7 +152,18 @@ class Instance:
     head: str = ""
     text: str = ""
     written: set[str] = field(default_factory=set)
+    told: tuple[CValue | None, ...] | CValue | None = None
     called: list[Instance] = field(default_factory=list)
+
+    def tell(self, results: list[CValue]) -> None:
+        """Note what is known of the value, of a function that returns in one place."""
+        if len(results) != 1:
+            return
+        result = results[0]
+        if result.known and result.fixed:
+            self.told = result
+        elif any(result.told):
+            self.told = result.told
 
 
 class InstanceSource(Protocol):

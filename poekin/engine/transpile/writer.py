@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from dataclasses import replace
 from types import ModuleType
 from typing import Any, NoReturn
 
@@ -21,7 +22,18 @@ from .c_types import (
     type_of_constant,
 )
 from .function_source import FunctionSource
-from .values import PRIMARY, SUM, UNARY, UNKNOWN, CValue, as_double, initial, member, scalar
+from .values import (
+    PRIMARY,
+    SUM,
+    UNARY,
+    UNKNOWN,
+    CValue,
+    Instance,
+    as_double,
+    initial,
+    member,
+    scalar,
+)
 
 # names that math.h or C itself has
 _WORDS = """
@@ -45,7 +57,10 @@ class Writer:
         self.types: dict[str, CType] = {}
         self.known: dict[str, CValue] = {}
         self.roots: dict[str, str] = {}
+        self.told: dict[str, tuple[CValue | None, ...]] = {}
         self.read: set[str] = set()
+        self.called: dict[Instance, None] = {}
+        self.results: list[CValue] = []
         self.lines: list[str] = []
         self.indent = 1
         self.temporaries = 0
@@ -61,6 +76,15 @@ class Writer:
     def put(self, text: str) -> None:
         """A line of C."""
         self.lines.append("    " * self.indent + text)
+
+    def mark(self) -> tuple[int, set[str], dict[Instance, None], int]:
+        """State of the text, to which `back_to` brings it back."""
+        return len(self.lines), set(self.read), dict(self.called), self.temporaries
+
+    def back_to(self, mark: tuple[int, set[str], dict[Instance, None], int]) -> None:
+        """Forget what was written since a mark."""
+        del self.lines[mark[0] :]
+        self.read, self.called, self.temporaries = mark[1:]
 
     def c_name(self, name: str) -> str:
         """A local name in C."""
@@ -110,10 +134,24 @@ class Writer:
             return list(value.parts)
         if isinstance(kind, CTuple):
             value = self.held(value)
-            return [member(value, k) for k in range(len(kind.items))]
+            return [self.member(value, k) for k in range(len(kind.items))]
         if isinstance(kind, CRow):
             return [CValue(DOUBLE, f"{value.within(PRIMARY)}[{k}]") for k in range(kind.length)]
         raise TypeError(f"expected a tuple, got {kind}")
+
+    def member(self, value: CValue, k: int) -> CValue:
+        """Item k of a tuple; what the arm tells of it is written out."""
+        if value.parts and value.parts[k].known:
+            return value.parts[k]
+        found = member(value, k)
+        if found.known and found.fixed:
+            return self.constant(self.source.tree, found.constant, "", True)
+        return found
+
+    def in_parts(self, value: CValue, told: tuple[CValue | None, ...]) -> CValue:
+        """A tuple by its name, of which some items are known."""
+        parts = [member(value, k) if item is None else item for k, item in enumerate(told)]
+        return replace(value, parts=tuple(parts))
 
     def make_tuple(self, items: list[CValue]) -> CValue:
         """A tuple of values."""
@@ -135,11 +173,11 @@ class Writer:
         if kind is None:
             self.refuse(node, f"the value {name} of type {type(value).__name__}")
         if isinstance(kind, CScalar):
-            return scalar(value, kind, fixed and kind != DOUBLE)
+            return scalar(value, kind, fixed)
         if name and not fixed:
             return self.global_constant(name, value, kind)
         made = self.make_tuple([self.constant(node, item, "", fixed) for item in value])
-        return CValue(made.type, made.text, made.binds, value, made.fixed)
+        return made
 
     def python_value(self, node: ast.expr) -> Any:
         """Value of a module's name, or of a name of a module that it imports."""
@@ -177,7 +215,7 @@ class Writer:
             constant = value.constant[index.constant]
         if isinstance(kind, CTuple):
             if index.known:
-                return member(value, index.constant)
+                return self.member(value, index.constant)
             if not kind.uniform:
                 self.refuse(node, "an index that is not known of a tuple of several types")
             return CValue(kind.items[0], f"{self.held(value).text}.v[{index.text}]")

@@ -13,7 +13,13 @@ from ...algebra import add, cross, dot, scale, subtract
 from ..lie import defect
 from . import least_squares
 
-_OUTSIDE = -0.02  # margin: a branch of less is no solution of an arm nearby
+OUTSIDE = -1e-4
+"""Margin below which a branch is no solution of the arm itself, whatever a target's rotation misses of
+being one.
+"""
+OUTSIDE_NEARBY = -0.02
+"""Margin below which a branch is no solution of an arm nearby."""
+
 _DEFECT = 1e-5
 _EXACT = 1e-14
 _CONFIRMED = 1e-9
@@ -29,15 +35,16 @@ def select(forward, placed, target, branches, sizes, T, work, q):
 
     `forward(x, T, J)` writes the pose T, 4 x 4, and the hybrid Jacobian J; `placed(branch, T)` the
     pose of a branch: m <= 6 coordinates, what else it has, and a margin. `sizes` holds the period of
-    each coordinate, 0 of a length, and the arm's reach. `work` is scratch, m + 8 rows of m.
+    each coordinate, 0 of a length, the arm's reach, and the margin of which a branch has to have
+    more. `work` is scratch, m + 8 rows of m.
     """
-    m = len(sizes) - 1
+    m = len(sizes) - 2
     found = 0
     if not _is_pose(target):
         return found
     for k in range(len(branches)):
         branch = branches[k]
-        if not branch[len(branch) - 1] > _OUTSIDE:
+        if not branch[len(branch) - 1] > sizes[m + 1]:
             continue
         for i in range(m):
             q[found][i] = branch[i]
@@ -119,20 +126,24 @@ def pose_error(T, target):
 def size(e, reach):
     """|e|^2, lengths by the reach."""
     w = (e[0], e[1], e[2])
-    p = (e[3] / reach, e[4] / reach, e[5] / reach)
-    return dot(w, w) + dot(p, p)
+    p = (e[3], e[4], e[5])
+    return dot(w, w) + dot(p, p) / (reach * reach)
 
 
 def _is_listed(q, count, sizes):
     """Whether row `count` of q is one of the rows before it, whole turns apart or none."""
     for k in range(count):
-        away = 0.0
-        for i in range(len(sizes) - 1):
-            apart = abs(q[k][i] - q[count][i])
-            away = max(away, min(apart, abs(apart - sizes[i])))
-        if away <= _ALIKE:
+        if _is_alike(q[k], q[count], sizes):
             return True
     return False
+
+
+def _is_alike(a, b, sizes):
+    for i in range(len(a)):
+        apart = abs(a[i] - b[i])
+        if not min(apart, abs(apart - sizes[i])) <= _ALIKE:
+            return False
+    return True
 
 
 def _column(T, j):

@@ -11,7 +11,7 @@ u = 2^-53.
 Source: the Chebyshev series of atan (Clenshaw 1962).
 """
 
-from math import comb
+from math import atan, comb, tan
 
 from .. import elementary
 from .coefficients import polynomial
@@ -22,16 +22,26 @@ _Q = 0.2360679774997897
 _TERMS = 14  # the next one is below 2^-58 of t
 
 
-def _coefficient(k):
-    """The coefficient of t^(2k+1) in the first terms of the series."""
-    total = sum(comb(n + k, 2 * k) * _Q ** (2 * n + 1) for n in range(k, _TERMS))
-    return (-1) ** k * 4.0 ** (2 * k + 1) / (2 * k + 1) * total
+def _coefficient(k, q, stretch, terms):
+    """The coefficient of t^(2k+1) in so many terms of the series for |t| <= 2 / stretch = tan(2 atan
+    q).
+    """
+    total = sum(comb(n + k, 2 * k) * q ** (2 * n + 1) for n in range(k, terms))
+    return (-1) ** k * stretch ** (2 * k + 1) / (2 * k + 1) * total
 
 
 # that of t itself is 1; odd and even k apart: two short chains of operations take less time than a
 # long one
-ODD_SERIES = tuple(_coefficient(k) for k in range(1, _TERMS, 2))
-EVEN_SERIES = tuple(_coefficient(k) for k in range(2, _TERMS, 2))
+ODD_SERIES = tuple(_coefficient(k, _Q, 4.0, _TERMS) for k in range(1, _TERMS, 2))
+EVEN_SERIES = tuple(_coefficient(k, _Q, 4.0, _TERMS) for k in range(2, _TERMS, 2))
+
+NARROW = 0.2360679774997897
+NARROW_SERIES = tuple(
+    _coefficient(k, tan(0.5 * atan(NARROW)), 2.0 / NARROW, 9) for k in range(1, 9)
+)
+"""Coefficients of t^3, t^5, ..., t^17 where |t| is at most sqrt(5) - 2, `NARROW`; the next term is
+below 2^-62.
+"""
 
 
 def _reduce_angle(y, x):

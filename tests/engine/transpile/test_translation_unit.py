@@ -8,6 +8,7 @@ import numba
 import numpy as np
 import pytest
 
+from poekin import algebra
 from poekin.engine.transpile.c_types import DOUBLE, CRow, CTable, CTuple
 from poekin.engine.transpile.translation_unit import External, TranslationUnit
 from poekin.engine.transpile.values import Argument
@@ -148,6 +149,62 @@ def test_max_and_min_of_nan_are_those_of_compiled_python(tmp_path):
         out = np.zeros(16)
         compiled(np.array(a), out)
         np.testing.assert_array_equal(run(unit, ends, list(a)), out)
+
+
+AXIS = np.array([[6.2e-17, 0.0, 1.0 - 2.0**-53], [3.0e-16, 0.5, 1.0 + 2.0**-51]])
+
+
+def about_axis(arm, a, out):
+    """Products and sums with numbers of the arm."""
+    k = (arm[0, 0], arm[0, 1], arm[0, 2])
+    across = algebra.cross(k, (a[0], a[1], a[2]))
+    out[0] = across[0] - k[0]
+    out[1] = k[1] - across[1]
+    out[2] = across[2] * unread(a[4])
+    out[3] = a[3] / k[2]
+    out[4] = known(k, 2) + a[5]
+    out[5] = arm[1, 0] * a[0] + arm[1, 2] * a[1]
+
+
+def unread(x):
+    return 2.0 * x
+
+
+def known(k, i):
+    return k[i] + 1.0
+
+
+def test_what_the_arm_tells_to_be_0_or_1_but_for_rounding_is_multiplied_by_and_added_nowhere(
+    tmp_path,
+):
+    unit = TranslationUnit("t")
+    entry = unit.instance(
+        about_axis, [unit.table("arm", AXIS), Argument(CRow(6)), Argument(CRow(16))]
+    )
+    assert entry is not None
+    text = unit.text([entry])
+    for line in (
+        "return (t_d3){{-b.v[1], b.v[0], 0.0}};",
+        "out[0] = across.v[0];",
+        "out[1] = -across.v[1];",
+        "out[2] = 0.0;",
+        "out[3] = a[3];",
+        "out[4] = 2.0 + a[5];",
+        # beyond that rounding they stay
+        "out[5] = 3e-16 * a[0] + 1.0000000000000004 * a[1];",
+    ):
+        assert f"    {line}\n" in text
+    # nor is a function called of which nothing is needed, or all is told
+    assert "unread" not in text
+    assert "_known" not in text
+    head = "void run_about_axis(double *a, double *out)"
+    whole = f"#include <math.h>\n{text}\n{head};\n{head}\n{{\n    {entry.name}(a, out);\n}}\n"
+    compiled = library(tmp_path, whole)
+    for a in np.random.default_rng(3).normal(size=(20, 6)):
+        out = np.zeros(16)
+        about_axis(AXIS, a, out)
+        # a number of 2^-52 is left out, of three that are 6 at most
+        np.testing.assert_allclose(run(compiled, about_axis, a.tolist()), out, rtol=0, atol=4e-15)
 
 
 @pytest.mark.parametrize(("shape", "kind"), [((2, 3), CTable(2, 3)), ((4,), CRow(4))])

@@ -39,7 +39,7 @@ def test_it_is_the_pose_of_the_cosines_and_sines_and_of_no_angle(name, tmp_path)
     for q in np.random.default_rng(1).uniform(-3, 3, (20, m)):
         branch = np.full(columns(m), np.nan)
         branch[:m][~angles] = q[~angles]
-        branch[m:-1] = np.stack([np.cos(q), np.sin(q)], axis=1).ravel()
+        branch[m:-1] = np.concatenate([np.cos(q), np.sin(q)])
         T = np.zeros((4, 4))
         function(*(a.ctypes.data_as(ctypes.c_void_p) for a in (branch, T)))
         assert np.abs(T - arm.fk(q)).max() <= 1e-14 * arm.reach

@@ -9,7 +9,7 @@ import poekin as pk
 from poekin.formulas.inverse import confirmed
 
 ARM = pk.load("puma560").chain()
-SIZES = np.append(np.full(6, 2 * np.pi), ARM.reach)
+SIZES = np.append(np.full(6, 2 * np.pi), [ARM.reach, confirmed.OUTSIDE_NEARBY])
 
 
 def forward(x, T, J):

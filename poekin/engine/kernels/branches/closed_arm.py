@@ -102,27 +102,59 @@ def coordinates(arm):
 
 def store(arm, x, margin, row):
     """Write the coordinates and margin of x = (x_1, y_1, ..., x_6, y_6), and return whether joints
-    that the arm does not have are near 0. A row of 3 m + 1 numbers gets (x, y) of each coordinate
-    too.
+    that the arm does not have are near 0. A row of 3 m + 1 numbers gets the x of all coordinates
+    and their y instead of these, which `finish` makes of them.
     """
+    m = coordinates(arm)
     away = 0.0
+    if arm[RULE, ADDED]:
+        away = _away(arm, x)
     for i in range(6):
-        if slides(arm, i):
-            value = x[2 * i]
-        else:
-            value = atan2(x[2 * i + 1], x[2 * i])
         column = int(arm[i, COLUMN])
-        if column >= 0:
-            row[column] = value
-            if row.shape[0] > coordinates(arm) + 1:
-                row[coordinates(arm) + 2 * column] = x[2 * i]
-                row[coordinates(arm) + 2 * column + 1] = x[2 * i + 1]
-        elif not abs(value) <= away:
-            away = abs(value)
+        if column >= 0 and row.shape[0] == m + 1:
+            row[column] = _coordinate(arm, i, x)
+        elif column >= 0:
+            row[m + column] = x[2 * i]
+            row[2 * m + column] = x[2 * i + 1]
     if not away <= HELD or not margin > 0.0:
         margin = min(margin, -away)
     row[row.shape[0] - 1] = margin
     return away <= NEAR
+
+
+def _away(arm, x):
+    """Largest coordinate of the joints that the arm does not have."""
+    away = 0.0
+    for i in range(6):
+        if arm[i, COLUMN] < 0:
+            value = abs(_coordinate(arm, i, x))
+            if not value <= away:
+                away = value
+    return away
+
+
+def _coordinate(arm, i, x):
+    if slides(arm, i):
+        return x[2 * i]
+    return atan2(x[2 * i + 1], x[2 * i])
+
+
+def finish(arm, row):
+    """Write the coordinates of a row of 3 m + 1 numbers: a compiler takes several angles at once."""
+    m = coordinates(arm)
+    for k in range(m):
+        row[k] = atan2(row[2 * m + k], row[m + k])
+    if _any_slides(arm):
+        for i in range(6):
+            if slides(arm, i) and arm[i, COLUMN] >= 0:
+                row[int(arm[i, COLUMN])] = row[m + int(arm[i, COLUMN])]
+
+
+def _any_slides(arm):
+    found = False
+    for i in range(6):
+        found = found or slides(arm, i)
+    return found
 
 
 def brought(R, p, a):

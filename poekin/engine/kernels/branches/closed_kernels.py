@@ -7,14 +7,14 @@ import math
 from ....algebra import dot
 from ...jit.array_io import load_matrix
 from ...jit.kernel import Kernel, kernel
-from .closed_arm import FAMILY, RULE, WRIST, displacement
+from .closed_arm import FAMILY, RULE, WRIST, displacement, finish
 from .parallel_branches import fill as fill_parallel
 from .wrist_branches import fill as fill_wrist
 
 
 def fill(arm, target, rows):
-    """Write the branches of one target, coordinates and margin, into rows (8, m + 1), and return
-    their number.
+    """Write the branches of one target, coordinates, their (x, y) and margin, into rows (8, 3 m +
+    1), and return their number.
 
     A branch with a margin above 0 is a solution; of any other margin it is the arm's least-squares
     answer, which may be one within rounding. `arm` is as `closed_arm` says. A target that is not
@@ -24,8 +24,12 @@ def fill(arm, target, rows):
     if not is_finite(R, p):
         return 0
     if arm[RULE, FAMILY] == WRIST:
-        return fill_wrist(arm, R, p, rows)
-    return fill_parallel(arm, R, p, rows)
+        count = fill_wrist(arm, R, p, rows)
+    else:
+        count = fill_parallel(arm, R, p, rows)
+    for k in range(count):
+        finish(arm, rows[k])
+    return count
 
 
 def is_finite(R, p):

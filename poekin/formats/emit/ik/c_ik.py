@@ -59,7 +59,8 @@ def c_ik(
 
     Notes
     -----
-    The functions are written from `poekin.formulas.ik` itself, one for each formula. Every solution
+    The functions are written from `poekin.formulas.ik` itself, one for each formula and what the arm
+    tells of its arguments: products with 0 and 1 are left out. Every solution
     is held against the arm's own pose (`emit.c`), the last digits come from Newton's rule, and
     equal ones are listed once.
     Of a continuum of solutions some are listed. Of an arm nearby, branches that it has and `chain`
@@ -86,12 +87,14 @@ def c_ik(
         )
     word = f"{identifier(name)}_ik"
     head = _head(word, arm, form, origin)
-    sizes = np.append(np.where(angle_mask(arm), 2.0 * np.pi, 0.0), arm.reach)
+    periods = np.where(angle_mask(arm), 2.0 * np.pi, 0.0)
+    outside = confirmed.OUTSIDE if near is None else confirmed.OUTSIDE_NEARBY
+    sizes = np.append(periods, [arm.reach, outside])
     return CSource(
         word,
         _header(word, head, arm.dof, form.rows),
         _source(word, head, arm, form, sizes),
-        selftest(word, sizes[:-1], targets(arm, form, sizes)),
+        selftest(word, periods, targets(arm, form, sizes)),
     )
 
 

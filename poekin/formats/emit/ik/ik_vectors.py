@@ -55,7 +55,7 @@ def targets(chain: Chain, form: ClosedArm, sizes: Array) -> Targets:
     rng = np.random.default_rng(1994)
     T = []
     expected = []
-    half = np.where(sizes[:-1] > 0.0, np.pi, 1.0)
+    half = np.where(sizes[: chain.dof] > 0.0, np.pi, 1.0)
     for _ in range(_DRAWN):
         pose = chain.fk(rng.uniform(-half, half))
         found = solutions(chain, form, sizes, pose)

@@ -11,7 +11,7 @@ from ..statements import double
 
 
 def columns(dof: int) -> int:
-    """Numbers of a branch: coordinates, cosine and sine of each, and a margin."""
+    """Numbers of a branch: coordinates, their cosines, their sines, and a margin."""
     return 3 * dof + 1
 
 
@@ -60,9 +60,8 @@ class PlacedBranch:
         if angle.base is not None:
             parts.append((f"c[{angle.base}]", f"s[{angle.base}]"))
         for k, factor in angle.terms:
-            at = self._dof + 2 * k
             sign = "-" if factor < 0.0 else ""
-            parts.append((f"branch[{at}]", f"{sign}branch[{at + 1}]"))
+            parts.append((f"branch[{self._dof + k}]", f"{sign}branch[{2 * self._dof + k}]"))
         if angle.offset:
             parts.append((double(math.cos(angle.offset)), double(math.sin(angle.offset))))
         return parts

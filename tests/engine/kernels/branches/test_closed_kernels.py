@@ -25,12 +25,16 @@ Q = np.array([0.4, -1.2, 1.5, -0.3, 0.8, 0.2])
 def test_one_target_uncompiled_and_a_batch_compiled_have_the_same_rows(name, joints):
     chain, table = arm(name, joints)
     T = chain.fk(Q[:joints])
-    one = np.full((8, joints + 1), np.nan)
+    one = np.full((8, 3 * joints + 1), np.nan)
     count = closed_kernels.fill(table, T, one)
     many = np.empty((2, 8, joints + 1))
     closed_kernels.branches_of(table).call(table, np.stack([T, T]), many)
     np.testing.assert_array_equal(many[0], many[1])
-    np.testing.assert_allclose(many[0, :count], one[:count], atol=1e-9)
+    angles = one[:count, :joints]
+    np.testing.assert_allclose(many[0, :count, :-1], angles, atol=1e-9)
+    np.testing.assert_allclose(many[0, :count, -1], one[:count, -1], atol=1e-9)
+    points = np.concatenate([np.cos(angles), np.sin(angles)], axis=1)
+    np.testing.assert_allclose(one[:count, joints:-1], points, atol=1e-15)
     assert np.isnan(many[0, count:]).all()
     assert count == (8 if joints == 6 else count)
 
@@ -50,13 +54,13 @@ def test_a_joint_that_the_arm_does_not_have_is_at_zero_in_every_solution():
     chain, table = arm("puma560", 3)
     assert table[closed_arm.RULE, closed_arm.ADDED] == 3
     assert sorted(table[:6, closed_arm.COLUMN]) == [-1, -1, -1, 0, 1, 2]
-    rows = np.empty((8, 4))
+    rows = np.empty((8, 10))
     count = closed_kernels.fill(table, chain.fk(Q[:3]), rows)
-    assert (rows[:count, 3] > 0).any()
+    assert (rows[:count, -1] > 0).any()
     away = chain.fk(Q[:3])
     away[:3, :3] = pk.so3.exp([0.3, 0.2, 0.1]) @ away[:3, :3]
     count = closed_kernels.fill(table, away, rows)
-    assert not (rows[:count, 3] > 0).any()
+    assert not (rows[:count, -1] > 0).any()
 
 
 def test_where_an_added_joint_may_be_anywhere_the_rows_say_so():
