@@ -327,7 +327,7 @@ def _evidence(
 ) -> Evidence:
     """Evidence on the solutions of each target, its samples taken together."""
     tally = listing.tally
-    chance = missing_probability(tally)
+    chance = np.where(finite, missing_probability(tally), np.nan)
     n = question.n_swivel
     k = question.redundant
     sampling = None
