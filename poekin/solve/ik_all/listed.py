@@ -51,7 +51,8 @@ def list_clear(
         for first in range(0, len(own), _AT_ONCE):
             some = own[first : first + _AT_ONCE]
             which = numbers[some]
-            listing, clear = _list(arm, solver, T[which], values[which])
+            reduced = solvers.targets(T[which], values[which])
+            listing, clear = _list(arm, solver, T[which], reduced, values[which])
             left[some] = ~clear
             parts.append((which[clear], listing))
     return parts, left
@@ -61,9 +62,12 @@ def _list(
     arm: SearchedArm,
     solver: Solver,
     T: Array,
+    reduced: Array,
     values: Array,
 ) -> tuple[Listing, np.ndarray]:
-    """The listing of those targets T (N, 4, 4) that are clear, and which these are."""
+    """The listing of those targets T (N, 4, 4) that are clear, and which these are; `reduced` are the
+    solver's targets.
+    """
     from ...engine.kernels.branches import listed_branches as kernel  # which imports Numba
 
     fast = arm.fast
@@ -76,16 +80,16 @@ def _list(
     errors = np.empty((N, solver.most, kernel.ERRORS))
     info = np.empty((N, kernel.INFO))
 
-    def run(T: Array, values: Array, q: Array, errors: Array, info: Array) -> None:
+    def run(T: Array, reduced: Array, values: Array, q: Array, errors: Array, info: Array) -> None:
         for k in range(0, len(T), _UNINTERRUPTED):
             some = slice(k, k + _UNINTERRUPTED)
-            branches = _with_locked(solver.branches(T[some]), values[some], arm.free)
+            branches = _with_locked(solver.branches(reduced[some]), values[some], arm.free)
             kernel.listed.call(
                 fast.hybrid_address, branches, T[some], box, fixed, options, rule,
                 _flat(q[some]), _flat(errors[some]), info[some],
             )  # fmt: skip
 
-    arrays = (np.ascontiguousarray(T), values, q, errors, info)
+    arrays = (np.ascontiguousarray(T), reduced, values, q, errors, info)
     if arm.parallel:
         threads.share_out(run, *arrays, rows=_UNINTERRUPTED)
     else:

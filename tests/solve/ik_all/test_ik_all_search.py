@@ -297,15 +297,18 @@ def test_starts_of_a_locked_arm_have_the_locked_values():
     def starts(x: float, *unsure: bool) -> Any:
         def given(T: np.ndarray) -> Any:
             counts = np.where(T[:, 0, 3] > 1, 0, 2)
-            return np.full((counts.sum(), 1), x), counts, np.array(unsure)
+            return np.full((counts.sum(), 2), x), counts, np.array(unsure)
 
         return SimpleNamespace(starts=given)
 
-    values = np.array([[np.nan, 0.1], [np.nan, 0.2], [np.nan, 0.1]])
+    axes = [screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1, 2)]
+    chain = pk.Chain.from_space(axes, np.eye(4))
+    values = np.array([[np.nan, 0.1, np.nan], [np.nan, 0.2, np.nan], [np.nan, 0.1, np.nan]])
     solvers = [starts(5.0, False, True), starts(6.0, False)]
-    asked = sources.Solvers(solvers, np.array([0, 1, 0]))
+    between = np.array([True, False, True])
+    asked = sources.Solvers(solvers, np.array([0, 1, 0]), chain, between)
     T = np.tile(np.eye(4), (3, 1, 1))
     T[2, 0, 3] = 2.0
-    found, unsure = sources.starts_of(asked, T, values, np.array([True, False]))
-    assert [q.tolist() for q in found] == [[[5, 0.1]] * 2, [[6, 0.2]] * 2, []]
+    found, unsure = sources.starts_of(asked, T, values)
+    assert [q.tolist() for q in found] == [[[5, 0.1, 5]] * 2, [[6, 0.2, 6]] * 2, []]
     assert unsure.tolist() == [False, False, True]
