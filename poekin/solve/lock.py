@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -98,6 +98,49 @@ def free_chain(chain: Chain, values: Array) -> Chain:
         joint_limits=chain.joint_limits[moves],
         joint_velocity_limits=chain.joint_velocity_limits[moves],
     )
+
+
+def at_ends(chain: Chain, free: np.ndarray) -> np.ndarray:
+    """Which coordinates (m,) are not `free` (m,) and move only joints before all that may move, or
+    behind them: other values of theirs move nothing but the base or the tool of the arm that is left.
+    """
+    moves = chain.coupling != 0
+    moving = np.flatnonzero(moves[:, free].any(axis=1))
+    between = moves[moving[0] : moving[-1] + 1]
+    return np.asarray(~free & ~between.any(axis=0))
+
+
+def brought_back(chain: Chain, T: Array, values: Array, free: np.ndarray) -> Array:
+    """Targets (N, 4, 4) of the arms whose coordinates that are `at_ends` are at 0: they have the
+    solutions there that T have at `values` (N, m) of what is not free.
+
+    T' = P' P^-1 T (M^-1 Q^-1 Q' M), P the product of the e^{A_k x_k} before the joints that move, Q
+    behind them, with ' where the coordinates at the ends are at 0.
+    """
+    ends = at_ends(chain, free)
+    if not ends.any():
+        return T
+    C = chain.coupling
+    moving = np.flatnonzero((C[:, free] != 0).any(axis=1))
+    given = np.where(free, 0.0, values)
+    x = given @ C.T + chain.offset
+    zero = np.where(ends, 0.0, given) @ C.T + chain.offset
+    before = range(moving[0])
+    behind = range(moving[-1] + 1, len(x.T))
+    if before:
+        T = _product(chain, before, zero) @ se3.inverse(_product(chain, before, x)) @ T
+    if behind:
+        Q = se3.inverse(_product(chain, behind, x)) @ _product(chain, behind, zero)
+        T = T @ se3.inverse(chain.home) @ Q @ chain.home
+    return T
+
+
+def _product(chain: Chain, joints: Iterable[int], x: Array) -> Array:
+    """Product (N, 4, 4) of the e^{A_k x_k} of some joints, x (N, n) the values of all."""
+    P = np.eye(4)
+    for k in joints:
+        P = P @ se3.exp(chain.screws[k] * x[:, k, None])
+    return P
 
 
 def _chosen(names: tuple[str, ...], which: np.ndarray) -> tuple[str, ...]:

@@ -13,7 +13,14 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError, ShapeError, UnknownName
 from poekin.solve.joint_units import bounds, joint_units
-from poekin.solve.lock import free_chain, items, locked_rows, locked_values
+from poekin.solve.lock import (
+    at_ends,
+    brought_back,
+    free_chain,
+    items,
+    locked_rows,
+    locked_values,
+)
 from poekin.testing.strategies import chain_strategies
 
 AXES = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([0, 1, 0], [0.5, 0, 0])]
@@ -77,6 +84,36 @@ def test_the_arm_that_is_left_moves_as_the_whole_one_with_what_is_locked_at_its_
     reach = chain.reach + x.sum()
     bound = 2.0**-53 * (n + 2) * (30 * (n + 1) + 12 * x.sum()) * reach
     np.testing.assert_allclose(left.fk(q[~locked]), chain.fk(q), rtol=0, atol=bound)
+
+
+@given(st.data())
+def test_one_arm_serves_all_values_of_what_is_locked_at_its_ends(data):
+    chain = data.draw(chain_strategies.chains(2, 7).filter(lambda chain: chain.dof > 1))
+    q = data.draw(chain_strategies.coordinates(chain))
+    free = np.ones(chain.dof, bool)
+    free[: data.draw(st.integers(0, chain.dof - 1))] = False
+    if data.draw(st.booleans()):
+        free = free[::-1].copy()
+    ends = at_ends(chain, free)
+    assert not (ends & free).any()
+    left = free_chain(chain, np.where(free, np.nan, np.where(ends, 0.0, q)))
+    values = np.where(free, np.nan, q)[None]
+    T = brought_back(chain, chain.fk(q)[None], values, free)[0]
+    # as of free_chain, and twice as many factors, each with its inverse
+    x = np.abs(chain.coupling) @ np.abs(q) + np.abs(chain.offset)
+    n = len(chain.kinds)
+    reach = chain.reach + x.sum()
+    bound = 2.0**-53 * (n + 2) * (120 * (n + 1) + 48 * x.sum()) * reach
+    np.testing.assert_allclose(T, left.fk(q[free]), rtol=0, atol=bound)
+
+
+def test_joints_between_those_that_move_are_not_at_the_ends():
+    chain = pk.load("panda").chain(tip="panda_hand")
+    free = np.array([False, True, True, False, True, True, False])
+    assert at_ends(chain, free).tolist() == [True] + [False] * 5 + [True]
+    T = chain.fk(chain.random(0, 3))
+    whole = np.ones(7, bool)
+    assert brought_back(chain, T, np.full((3, 7), np.nan), whole) is T
 
 
 def test_limits_of_joints_stay_theirs_where_a_coordinate_of_a_sum_is_locked():

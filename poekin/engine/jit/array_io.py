@@ -3,12 +3,12 @@
 from ...algebra import make_pose
 
 
-def without_refcount(array):
-    """The array itself; in compiled code without a count of its references, which would go up and
-    down with every view and cost more than the arithmetic. For arguments of kernels only: their
-    caller holds them.
+def without_refcount(held):
+    """An array, or a tuple of arrays, itself; in compiled code without a count of its references,
+    which would go up and down with every view and cost more than the arithmetic. For arguments
+    only: the caller holds them.
     """
-    return array
+    return held
 
 
 def load_rotation(R):

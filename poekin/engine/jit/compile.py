@@ -33,13 +33,25 @@ def _modules():
 
 
 @intrinsic
-def _without_references(typing_context, array):
+def _without_references(typing_context, value):
     def generate(context, builder, signature, arguments):
-        struct = context.make_array(signature.args[0])(context, builder, arguments[0])
-        struct.meminfo = cgutils.get_null_value(struct.meminfo.type)
-        return struct._getvalue()
+        return _not_counted(context, builder, signature.args[0], arguments[0])
 
-    return array(array), generate
+    return value(value), generate
+
+
+def _not_counted(context, builder, kind, value):
+    """An array, or all arrays of a tuple."""
+    if isinstance(kind, types.Number):
+        return value
+    if isinstance(kind, types.BaseTuple):
+        parts = zip(kind, cgutils.unpack_tuple(builder, value), strict=True)  # type: ignore[arg-type]
+        return context.make_tuple(
+            builder, kind, [_not_counted(context, builder, *part) for part in parts]
+        )
+    struct = context.make_array(kind)(context, builder, value)
+    struct.meminfo = cgutils.get_null_value(struct.meminfo.type)
+    return struct._getvalue()
 
 
 _OVERLOADED = {
@@ -50,7 +62,7 @@ _OVERLOADED = {
     elementary.atan2: lambda y, x: lambda y, x: math.atan2(y, x),
     elementary.takes_series: lambda x: lambda x: True,
     elementary.below: lambda x, limit: lambda x, limit: x < limit,
-    array_io.without_refcount: lambda array: lambda array: _without_references(array),  # type: ignore[call-arg]
+    array_io.without_refcount: lambda held: lambda held: _without_references(held),  # type: ignore[call-arg]
 }
 """Compiled code of the functions that are not compiled as they stand."""
 _COMPILED_OTHERWISE = {*_OVERLOADED, *vector.OVERLOADED}

@@ -133,6 +133,20 @@ def run_one(arm, q, T, J, scratch):
     _run(one, sines, cosines, 1, 0, q, T, J, 0)
 
 
+def run_four(arm, q, T, J, scratch):
+    """Four configurations, q (4, m), T (4, 4, 4) and J (4, 6, m)."""
+    count, _, angles, _, four = _header(arm)
+    size = LANES * count
+    if 2 * size > scratch.size:
+        scratch = np.empty(2 * size)
+    sines = scratch[:size]
+    cosines = scratch[size:]
+    for k in range(LANES):
+        _angles(angles, q, k, sines, LANES, k)
+    _sines_cosines(sines, cosines, size)
+    _run(four, sines, cosines, LANES, 0, q, T, J, 0)
+
+
 def _apart(a, b):
     """Whether two arrays share no memory."""
     start = a.ctypes.data

@@ -58,7 +58,8 @@ _ODD_FACTOR = 8.0
 
 def wrapped_difference(d, period):
     """Difference of an angle by the shorter way round; a coordinate without a period has 0 for it."""
-    if period > 0.0:
+    half = 0.5 * period
+    if period > 0.0 and not -half <= d < half:
         return d - period * math.floor(d / period + 0.5)
     return d
 

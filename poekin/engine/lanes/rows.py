@@ -13,3 +13,8 @@ def at_once():
 def rows(array):
     """An array (n,) of numbers as n / `at_once()` scalars."""
     return array
+
+
+def table(array):
+    """An array (r, n) of numbers as r rows of n / `at_once()` scalars."""
+    return array

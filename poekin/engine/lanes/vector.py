@@ -47,8 +47,16 @@ class LaneRows(types.Type):
         super().__init__(name="LaneRows")
 
 
+class LaneTable(types.Type):
+    """Rows of such rows, each as long as the others."""
+
+    def __init__(self):
+        super().__init__(name="LaneTable")
+
+
 _LANES = Lanes()
 _ROWS = LaneRows()
+_TABLE = LaneTable()
 
 
 @register_model(Lanes)
@@ -61,6 +69,12 @@ class _LanesModel(models.PrimitiveModel):
 class _RowsModel(models.PrimitiveModel):
     def __init__(self, manager, type_):
         super().__init__(manager, type_, _VECTOR.as_pointer())
+
+
+@register_model(LaneTable)
+class _TableModel(models.StructModel):
+    def __init__(self, manager, type_):
+        super().__init__(manager, type_, [("first", _ROWS), ("width", types.intp)])
 
 
 def _vector(context, builder, value, kind):
@@ -113,6 +127,7 @@ for _function, _name in (
     (operator.mul, "fmul"),
     (operator.imul, "fmul"),
     (operator.truediv, "fdiv"),
+    (operator.itruediv, "fdiv"),
 ):
     _register_binary(_function, _name)
 
@@ -137,6 +152,24 @@ def _register_unary(function, name):
 
 _register_unary(abs, "fabs")
 _register_unary(math.sqrt, "sqrt")
+
+
+@intrinsic
+def _with_sign(typingctx, a, b):
+    def generate(context, builder, signature, arguments):
+        vectors = _vectors(context, builder, signature, arguments)
+        kind = ir.FunctionType(_VECTOR, [_VECTOR, _VECTOR])
+        used = cgutils.get_or_insert_function(builder.module, kind, f"llvm.copysign.v{_COUNT}f64")
+        return builder.call(used, vectors)
+
+    return _LANES(a, b), generate
+
+
+@overload(math.copysign)
+def _copysign(a, b):
+    if _LANES in (a, b):
+        return lambda a, b: _with_sign(a, b)  # type: ignore[call-arg]
+    return None
 
 
 @overload(operator.neg)
@@ -171,6 +204,29 @@ def _of_array(typingctx, array):
     return _ROWS(array), generate
 
 
+@intrinsic
+def _of_matrix(typingctx, array):
+    def generate(context, builder, signature, arguments):
+        struct = context.make_array(signature.args[0])(context, builder, arguments[0])
+        table = cgutils.create_struct_proxy(_TABLE)(context, builder)
+        table.first = builder.bitcast(struct.data, _VECTOR.as_pointer())
+        count = context.get_constant(types.intp, _COUNT)
+        table.width = builder.sdiv(cgutils.unpack_tuple(builder, struct.shape)[1], count)
+        return table._getvalue()
+
+    return _TABLE(array), generate
+
+
+@intrinsic
+def _row(typingctx, table, k):
+    def generate(context, builder, signature, arguments):
+        whole = cgutils.create_struct_proxy(_TABLE)(context, builder, arguments[0])
+        k = context.cast(builder, arguments[1], signature.args[1], types.intp)
+        return builder.gep(whole.first, [builder.mul(k, whole.width)])
+
+    return _ROWS(table, k), generate
+
+
 # numbers of an array begin at multiples of eight bytes
 _ALIGNED = 8
 
@@ -199,6 +255,8 @@ def _stored(typingctx, rows, k, x):
 def _get(rows, k):
     if rows == _ROWS:
         return lambda rows, k: _loaded(rows, k)  # type: ignore[call-arg]
+    if rows == _TABLE:
+        return lambda rows, k: _row(rows, k)  # type: ignore[call-arg]
     return None
 
 
@@ -219,5 +277,10 @@ def _rows(array):
     return lambda array: _of_array(array)  # type: ignore[call-arg]
 
 
-OVERLOADED = (elementary.where_less, lanes.at_once, lanes.rows)
+@overload(lanes.table)
+def _table(array):
+    return lambda array: _of_matrix(array)  # type: ignore[call-arg]
+
+
+OVERLOADED = (elementary.where_less, lanes.at_once, lanes.rows, lanes.table)
 """Functions that are not compiled as they stand."""

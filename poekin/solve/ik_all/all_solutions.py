@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
@@ -49,11 +49,16 @@ class AllSolutions(Result):
         and a target that is not finite. `explanation` says why.
     p_missing : (...) ndarray
         Probability of a solution missing: 0 where `complete`, NaN where nothing was found by
-        search, where there is a continuum, and where only a near arm has a closed form.
+        search, where there is a continuum, where only a near arm has a closed form, and of a target
+        that is not finite.
     position_error, rotation_error : (...) ndarray
         Largest errors of the listed solutions by `Chain.fk`, m and rad; NaN without any.
     self_motion_coordinates : dict of int to tuple of str
         Names of the coordinates that move along a continuum, by number of the target in C order.
+    self_motion_directions : dict of int to (m,) ndarray
+        Direction in which the continuum goes on from the solution that is listed of it, by number of
+        the row of `q`: the unit vector n of coordinates with J n = 0, which leaves the tool where it
+        is to first order (q + h n to second order of h). It may be followed either way.
     redundant : str or None
         Name of the coordinate that was given values, of an arm with seven coordinates.
     sample : (S,) ndarray of int, or None
@@ -80,6 +85,7 @@ class AllSolutions(Result):
     position_error: Array
     rotation_error: Array
     self_motion_coordinates: dict[int, tuple[str, ...]]
+    self_motion_directions: dict[int, Array] = field(default_factory=dict)
     redundant: str | None = None
     sample: np.ndarray | None = None
     evidence: Evidence | None = None

@@ -27,6 +27,7 @@ _SHARE = 0.1
 _FACTOR = 4.0
 # a margin so far below 0 is no double root of any arm within EXACT, where there are other solutions
 _HOPELESS = 0.01
+_SQUARE = 1e-12  # cosine of a right angle but for rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +56,21 @@ class ClosedForm:
         """Whether the arm that is solved is the given one."""
         return not self.position_bound and not self.rotation_bound
 
+    @property
+    def none_below(self) -> float:
+        """Margin of which a target has no solution if all of its branches have less.
+
+        Where not the first step alone tells it, there is none such: what the later steps find out of
+        reach may be within reach of another one of infinitely many first steps. Nor is there for
+        prismatic joints, whose first step does not always say that there are.
+        """
+        told = not self.arm[:6, closed_arm.SLIDES].any()
+        if self.arm[closed_arm.RULE, closed_arm.FAMILY] == closed_arm.WRIST:
+            # any rotation is within reach of axes at right angles
+            h = self.arm[:6, closed_arm.DIRECTION : closed_arm.DIRECTION + 3]
+            told &= max(abs(h[3] @ h[4]), abs(h[4] @ h[5])) <= _SQUARE
+        return -max(_HOPELESS, self.margin_bound) if told else -np.inf
+
     def said(self) -> str:
         """The way to the solutions, in words."""
         if self.is_exact:
@@ -71,11 +87,12 @@ class ClosedForm:
         A branch with a margin above 0 is a solution; another one is the least-squares answer where
         there is none, or a solution within rounding, which the caller has to try.
         """
-        return branch_rows(self.arm, self.dof, T)
+        rows = self.branches(T)
+        return rows[:, :, :-1], rows[:, :, -1]
 
-    def branches(self, T: Array) -> tuple[Array, Array, np.ndarray]:
-        """`rows`, and where there may be more solutions than these (N,): nowhere."""
-        return *self.rows(T), np.zeros(len(T), bool)
+    def branches(self, T: Array) -> Array:
+        """Branches (N, 8, m + 1) of targets (N, 4, 4), each with its margin behind it; see `rows`."""
+        return branch_rows(self.arm, self.dof, T)
 
     def starts(self, T: Array) -> tuple[Array, np.ndarray, np.ndarray]:
         """Configurations (S, m) for all of the targets (N, 4, 4), one target's after the other's,

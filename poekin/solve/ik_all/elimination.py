@@ -20,16 +20,25 @@ _TABLES = 4
 class EliminatedRows(NamedTuple):
     """Solutions of targets, before they are tried down to rounding.
 
-    Attributes: q (N, 16, 6), rad, NaN in rows that hold none; margin (N, 16), the slope of the
-    polynomial at the root as a share of the largest, 0 at a double root and -1 without a root;
-    count (N,); sure (N,), whether the number of roots is beyond doubt to rounding: all of them are
-    solutions, simple, and even in number.
+    Attributes: branches (N, 16, 7), coordinates q, rad, NaN in rows that hold none, and a margin,
+    the slope of the polynomial at the root as a share of the largest, 0 at a double root and -1
+    without a root; count (N,); sure (N,), whether the number of roots is beyond doubt to rounding:
+    all of them are solutions, simple, and even in number.
     """
 
-    q: Array
-    margin: Array
+    branches: Array
     count: np.ndarray
     sure: np.ndarray
+
+    @property
+    def q(self) -> Array:
+        """Coordinates (N, 16, 6), rad."""
+        return self.branches[:, :, :-1]
+
+    @property
+    def margin(self) -> Array:
+        """Margins (N, 16)."""
+        return self.branches[:, :, -1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,13 +73,14 @@ class Elimination:
         taken = found.margin >= 0.0
         return found.q[taken], taken.sum(axis=1), ~found.sure
 
-    def branches(self, T: Array) -> tuple[Array, Array, np.ndarray]:
-        """Branches (N, 16, 6) of targets (N, 4, 4), their margins (N, 16), NaN where there are fewer,
-        and where there may be more solutions than these (N,).
+    def branches(self, T: Array) -> Array:
+        """Branches (N, 16, 7) of targets (N, 4, 4), each with its margin behind it, below 0 or NaN
+        where there is none. A target that may have more solutions than it finds has a branch with
+        the margin 0 of a double root.
         """
         found = self.rows(T)
-        margins = np.where(found.margin >= 0.0, found.margin, np.nan)
-        return found.q, margins, ~found.sure
+        found.margin[~found.sure, -1] = 0.0
+        return found.branches
 
     def rows(self, T: Array) -> EliminatedRows:
         """Solutions of targets (N, 4, 4), by the first table, and of those that it is not sure of by
@@ -96,8 +106,9 @@ class Elimination:
 
 def _join(found: EliminatedRows, which: np.ndarray, other: EliminatedRows, own: np.ndarray) -> None:
     """Adds the solutions of some targets that another table has found, as far as there is room."""
-    q = found.q[which]
-    margin = found.margin[which]
+    branches = found.branches[which]
+    q = branches[:, :, :-1]
+    margin = branches[:, :, -1]
     others = other.q[own]
     margins = other.margin[own]
     target = np.arange(len(which))
@@ -109,8 +120,7 @@ def _join(found: EliminatedRows, which: np.ndarray, other: EliminatedRows, own: 
         added = (margins[:, row] >= 0.0) & ~is_known & (margin[target, free] < 0.0)
         q[added, free[added]] = others[added, row]
         margin[added, free[added]] = margins[added, row]
-    found.q[which] = q
-    found.margin[which] = margin
+    found.branches[which] = branches
     found.count[which] = (margin >= 0.0).sum(axis=1)
 
 
@@ -197,8 +207,7 @@ def _rows(table: Array, T: Array) -> EliminatedRows:
     targets = np.ascontiguousarray(T)
     elimination_kernels.eliminated.call(table, targets, rows, counts)
     return EliminatedRows(
-        rows[..., :6],
-        rows[..., 6],
+        rows,
         counts[:, 0].astype(int),
         counts[:, 1] == 0.0,
     )

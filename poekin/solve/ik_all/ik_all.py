@@ -28,6 +28,7 @@ from .solution_sets.evidence import Evidence, Sampling, SolverUsed, missing_prob
 from .solution_sets.found import reduce_parts
 from .solution_sets.listing import Listing, gathered
 from .solution_sets.places import Box, Places, in_order, make_places
+from .solution_sets.self_motion import directions
 from .sources import Method, Solvers, find, solvers_for
 from .swivel import N_SWIVEL, redundant_coordinate, sample_values
 
@@ -327,7 +328,7 @@ def _evidence(
 ) -> Evidence:
     """Evidence on the solutions of each target, its samples taken together."""
     tally = listing.tally
-    chance = missing_probability(tally)
+    chance = np.where(finite, missing_probability(tally), np.nan)
     n = question.n_swivel
     k = question.redundant
     sampling = None
@@ -366,6 +367,7 @@ def _result(
     position, rotation = reduce_parts(np.maximum, errors, Ragged(errors, counts), np.nan).T
     complete = evidence.complete.reshape(batch)
     k = question.redundant
+    moving = evidence.self_motion
     return AllSolutions(
         q=places.q,
         revolutions=places.number,
@@ -377,7 +379,8 @@ def _result(
         p_missing=evidence.p_missing.reshape(batch),
         position_error=position.reshape(batch),
         rotation_error=rotation.reshape(batch),
-        self_motion_coordinates=dict(evidence.self_motion),
+        self_motion_coordinates={k: one.names for k, one in moving.items()},
+        self_motion_directions=directions(question.units, question.free, places, moving),
         redundant=None if k is None else question.given.q_names[k],
         sample=None if k is None else places.owner % question.n_swivel,
         evidence=evidence,

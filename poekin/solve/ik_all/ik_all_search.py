@@ -22,6 +22,7 @@ from ..ik.task import Task
 from ..ragged import Ragged
 from .solution_sets.found import Found, joined
 from .solution_sets.places import Box, turns_within
+from .solution_sets.self_motion import SelfMotion
 
 POSE = Task(
     "pose",
@@ -204,15 +205,18 @@ def _examined(
             int(suspect[i]): _way_along(arm, one, q.rows[suspect[i]], J[i])
             for i in np.flatnonzero(is_singular & (owner == k))
         }
-        along = {row: np.abs(way) for row, way in ways.items() if way is not None}
+        along = {row: way for row, way in ways.items() if way is not None}
         if along:
             met = list(along)
             fewest, most = turns_within(arm.box, q.rows[met])
             within = (fewest <= most).all(axis=1)
+            listed = met[int(np.argmax(within))]
             kept[met] = False
-            kept[met[int(np.argmax(within))]] = True
-            changes = np.max([way / way.max() for way in along.values()], axis=0)
-            self_motion[k] = tuple(itertools.compress(arm.fast.q_names, changes > _MOVES))
+            kept[listed] = True
+            sizes_of = np.abs(list(along.values()))
+            changes = np.max(sizes_of / sizes_of.max(axis=1, keepdims=True), axis=0)
+            names = tuple(itertools.compress(arm.fast.q_names, changes > _MOVES))
+            self_motion[k] = SelfMotion(names, along[listed])
     return replace(found.kept(kept), singular=singular, self_motion=self_motion)
 
 

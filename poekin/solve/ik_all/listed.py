@@ -51,7 +51,8 @@ def list_clear(
         for first in range(0, len(own), _AT_ONCE):
             some = own[first : first + _AT_ONCE]
             which = numbers[some]
-            listing, clear = _list(arm, solver, T[which], values[which])
+            reduced = solvers.targets(T[which], values[which])
+            listing, clear = _list(arm, solver, T[which], reduced, values[which])
             left[some] = ~clear
             parts.append((which[clear], listing))
     return parts, left
@@ -61,8 +62,12 @@ def _list(
     arm: SearchedArm,
     solver: Solver,
     T: Array,
+    reduced: Array,
     values: Array,
 ) -> tuple[Listing, np.ndarray]:
+    """The listing of those targets T (N, 4, 4) that are clear, and which these are; `reduced` are the
+    solver's targets.
+    """
     from ...engine.kernels.branches import listed_branches as kernel  # which imports Numba
 
     fast = arm.fast
@@ -72,48 +77,69 @@ def _list(
     options = kernel_options(POSE, AIM * fast.chain.reach, AIM, _ITERATIONS)
     rule = _rule(solver)
     q = np.empty((N, solver.most, fast.dof))
-    numbers = np.empty((N, solver.most, kernel.ERRORS))
+    errors = np.empty((N, solver.most, kernel.ERRORS))
     info = np.empty((N, kernel.INFO))
 
-    def run(T: Array, values: Array, q: Array, numbers: Array, info: Array) -> None:
+    def run(T: Array, reduced: Array, values: Array, q: Array, errors: Array, info: Array) -> None:
         for k in range(0, len(T), _UNINTERRUPTED):
             some = slice(k, k + _UNINTERRUPTED)
-            rows, margins, doubtful = solver.branches(T[some])
-            q[some] = values[some, None]
-            q[some, :, arm.free] = rows
+            branches = _with_locked(solver.branches(reduced[some]), values[some], arm.free)
             kernel.listed.call(
-                fast.hybrid_address, q[some], np.ascontiguousarray(margins), fast.fk(q[some]),
-                T[some], box, fixed, options, rule, numbers[some], info[some],
+                fast.hybrid_address, branches, T[some], box, fixed, options, rule,
+                _flat(q[some]), _flat(errors[some]), info[some],
             )  # fmt: skip
-            info[some, kernel.IS_CLEAR] *= ~doubtful
 
-    arrays = (np.ascontiguousarray(T), values, q, numbers, info)
+    arrays = (np.ascontiguousarray(T), reduced, values, q, errors, info)
     if arm.parallel:
         threads.share_out(run, *arrays, rows=_UNINTERRUPTED)
     else:
         run(*arrays)
     clear = info[:, kernel.IS_CLEAR] != 0.0
-    return _listing(q, numbers, info[:, : kernel.IS_CLEAR], clear), clear
+    return _listing(q, errors, info[:, : kernel.IS_CLEAR].astype(int), clear), clear
+
+
+def _with_locked(branches: Array, values: Array, free: np.ndarray) -> Array:
+    """Branches (N, B, m' + 1) of the free coordinates and their margins, with those of all."""
+    if free.all():
+        return branches
+    whole = np.empty((*branches.shape[:2], len(free) + 1))
+    whole[:, :, :-1] = values[:, None]
+    whole[:, :, np.append(free, True)] = branches
+    return whole
+
+
+def _flat(rows: Array) -> Array:
+    """The rows (N, B, m) of all targets, one after the other."""
+    return rows.reshape(-1, rows.shape[2])
 
 
 def _rule(solver: Solver) -> Array:
     """Margins above which a branch is a solution, and below which none; see `listed_branches`."""
     if isinstance(solver, Elimination):
-        return np.array([0.0, 0.0, _MOVED])
+        return np.array([0.0, 0.0, _MOVED, 0.0])
     off = solver.margin_bound
-    return np.array([max(_CLEAR, off), max(_ABSENT, off), _MOVED + off])
+    return np.array([max(_CLEAR, off), max(_ABSENT, off), _MOVED + off, -solver.none_below])
 
 
-def _listing(q: Array, numbers: Array, info: Array, clear: np.ndarray) -> Listing:
-    """The listing of the targets that are clear, numbered as they come."""
-    found, within = info[clear].astype(int).T
-    # one flat index takes half the time of a mask
-    there = np.flatnonzero(np.arange(q.shape[1]) < np.where(clear, info[:, 1], 0.0)[:, None])
-    listed = numbers.reshape(-1, numbers.shape[2])[there]
+def _listing(q: Array, errors: Array, counts: np.ndarray, clear: np.ndarray) -> Listing:
+    """The listing of the targets that are clear, numbered as they come; each part of a call's
+    targets has its solutions at its beginning.
+    """
+    from ...engine.kernels.branches import listed_branches as kernel  # which imports Numba
+
+    rows = []
+    numbers = []
+    for k in range(0, len(q), _UNINTERRUPTED):
+        some = slice(k, k + _UNINTERRUPTED)
+        there = slice(counts[some, kernel.WITHIN].sum())
+        rows.append(_flat(q[some])[there])
+        numbers.append(_flat(errors[some])[there])
+    listed = np.concatenate(numbers)
+    found, within = counts[clear].T
     places = Places(
-        q=q.reshape(-1, q.shape[2])[there],
+        q=np.concatenate(rows),
         owner=np.repeat(np.arange(len(within)), within),
-        number=whole_numbers(listed[:, 2]),
+        number=whole_numbers(listed[:, kernel.PLACES]),
         within=within,
     )
     tally = Tally(
@@ -125,4 +151,4 @@ def _listing(q: Array, numbers: Array, info: Array, clear: np.ndarray) -> Listin
         sure=np.ones(len(found), bool),
         self_motion={},
     )
-    return Listing(places, listed[:, :2], tally)
+    return Listing(places, listed[:, : kernel.PLACES], tally)

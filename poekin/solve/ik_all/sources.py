@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ..lock import free_chain
+from ..lock import at_ends, brought_back, free_chain
 from ..ragged import Ragged
 from .closed_form import ClosedForm, closed_form
 from .elimination import Elimination, elimination
@@ -27,10 +27,16 @@ _elimination = lru_cache(maxsize=256)(elimination)
 
 
 class Solvers(NamedTuple):
-    """Solvers of the arms that locked values leave, and which of them serves each target (N,)."""
+    """Solvers of the arms that locked values leave, and which of them serves each target (N,).
+
+    One arm serves all values of what is locked before or behind the joints that move: its targets
+    are brought there. `chain` is the whole arm, `free` (m,) what may move.
+    """
 
     solvers: Sequence[Solver]
     which: np.ndarray
+    chain: Chain
+    free: np.ndarray
 
     @property
     def is_exact(self) -> bool:
@@ -40,6 +46,10 @@ class Solvers(NamedTuple):
     def chosen(self, rows: np.ndarray) -> Solvers:
         """The solvers of some of the targets, by their numbers or a mask."""
         return self._replace(which=self.which[rows])
+
+    def targets(self, T: Array, values: Array) -> Array:
+        """The solvers' targets for those of the whole arm, with `values` (N, m) of what is locked."""
+        return brought_back(self.chain, T, values, self.free)
 
     def used(self) -> SolverUsed:
         """The solver whose arm is the farthest from the given one."""
@@ -58,19 +68,19 @@ def solvers_for(
     """
     if method == "search":
         return []
-    if free.all():
-        rows = values[:1]
-        which = np.zeros(len(values), int)
-    else:
-        rows, which = np.unique(values[:, ~free], axis=0, return_inverse=True)
-        which = which.reshape(len(values))
+    ends = at_ends(chain, free)
+    between = ~free & ~ends
+    rows = values[:1, between]
+    which = np.zeros(len(values), int)
+    if between.any():
+        rows, which = np.unique(values[:, between], axis=0, return_inverse=True)
     each = []
     for row in rows:
-        locked = np.full(chain.dof, np.nan)
-        locked[~free] = row[: np.count_nonzero(~free)]
+        locked = np.where(ends, 0.0, np.nan)
+        locked[between] = row
         each.append(solvers_of(free_chain(chain, locked), method))
     # of an arm that needs a search all do
-    return [Solvers(stage, which) for stage in zip(*each, strict=False)]
+    return [Solvers(stage, which.ravel(), chain, free) for stage in zip(*each, strict=False)]
 
 
 def solvers_of(chain: Chain, method: Method) -> tuple[Solver, ...]:
@@ -112,7 +122,7 @@ def find(
     if solvers is None:
         none = Ragged(np.empty((0, m)), np.zeros(len(T), int))
         return search(arm, T, values, none, rule)
-    starts, unsure = starts_of(solvers, T, values, arm.free)
+    starts, unsure = starts_of(solvers, T, values)
     these_alone = Rule(1, 0, rule.iterations)
     found = search(arm, T, values, starts, these_alone)
     # where solutions become one or infinitely many, a closed form may lose them, and elimination is not sure
@@ -123,17 +133,14 @@ def find(
     return replaced(found, unsure, again)
 
 
-def starts_of(
-    solvers: Solvers,
-    T: Array,
-    values: Array,
-    free: np.ndarray,
-) -> tuple[Ragged, np.ndarray]:
+def starts_of(solvers: Solvers, T: Array, values: Array) -> tuple[Ragged, np.ndarray]:
     """The solvers' solutions of each target, and where there may be more of them (N,)."""
+    free = solvers.free
     parts = [np.empty((0, int(free.sum())))]
     owners = [np.empty(0, int)]
     counts = np.zeros(len(T), int)
     unsure = np.zeros(len(T), bool)
+    T = solvers.targets(T, values)
     for k, solver in enumerate(solvers.solvers):
         own = np.flatnonzero(solvers.which == k)
         q, counts[own], unsure[own] = solver.starts(T[own])

@@ -9,8 +9,10 @@ import pytest
 
 from poekin.engine.jit import compile as engine_compile
 from poekin.engine.lanes import rows as lanes
+from poekin.engine.straight_line.arctangent import atan2
 from poekin.formulas import elementary
 from poekin.formulas.ik.elimination import resultant
+from poekin.formulas.inverse import least_squares
 
 A = np.array([0.5, -1.5, 2.0, 0.0])
 B = np.array([0.25, 3.0, 2.0, -0.5])
@@ -49,10 +51,13 @@ def test_functions_take_each_number_by_itself():
         rows[1] = elementary.sqrt(abs(x))
         rows[2] = elementary.where_less(x, y, x, 7.0)
         rows[3] = -x
+        rows[4] = math.copysign(2.0, x)
+        rows[5] = math.copysign(y, x)
 
-    out = np.empty(16)
+    out = np.empty(24)
     compiled(each)(A, B, out)
     expected = [abs(A), np.sqrt(abs(A)), np.where(A < B, A, 7.0), -A]
+    expected += [np.copysign(2.0, A), np.copysign(B, A)]
     np.testing.assert_array_equal(out, np.concatenate(expected))
 
 
@@ -90,6 +95,7 @@ def test_rows_may_begin_anywhere_in_an_array():
 def test_plain_python_takes_one_at_once_and_compiled_code_four():
     assert lanes.at_once() == 1
     assert lanes.rows(A) is A
+    assert lanes.table(A) is A
     assert compiled(lambda: lanes.at_once())() == 4
 
 
@@ -105,3 +111,42 @@ def test_a_formula_of_four_matrices_is_that_of_each():
     expected = [resultant.factor(list(map(float, row)), [0.0] * 81) for row in A]
     # products and sums are fused or not
     np.testing.assert_allclose(out, expected, rtol=1e-11)
+
+
+def test_angles_of_four_points_are_those_of_each():
+    def angles(y, x, out):
+        lanes.rows(out)[0] = atan2(lanes.rows(y)[0], lanes.rows(x)[0])
+
+    out = np.empty(4)
+    compiled(angles)(A, B, out)
+    # as exact as the angle of one point, tests/engine/straight_line/test_arctangent.py
+    np.testing.assert_allclose(out, np.arctan2(A, B), rtol=0, atol=6e-16)
+
+
+@pytest.mark.parametrize("count", [3, 6])
+def test_equations_of_four_arms_are_solved_as_those_of_each(count):
+    def together(J, e, free, H, g):
+        equations = lanes.table(H)
+        unknowns = lanes.rows(g)
+        n = len(free)
+        least_squares.normal_equations(
+            lanes.table(J), lanes.rows(e), np.ones(6), 0.5, free, n, equations, unknowns
+        )
+        least_squares.solve(equations, unknowns, n)
+
+    rng = np.random.default_rng(count)
+    J = rng.normal(size=(4, 6, count))
+    e = rng.normal(size=(4, 6))
+    free = np.ones(count)
+    free[1] = 0.0
+    g = np.empty(4 * count)
+    matrix = np.ascontiguousarray(J.transpose(1, 2, 0)).reshape(6, 4 * count)
+    compiled(together)(matrix, e.T.ravel(), free, np.empty((count, 4 * count)), g)
+    for k in range(4):
+        H = np.empty((count, count))
+        one = np.empty(count)
+        least_squares.normal_equations(J[k], e[k], np.ones(6), 0.5, free, count, H, one)
+        least_squares.solve(H, one, count)
+        # damped, so of a condition of some tens: products and sums are fused or not
+        np.testing.assert_allclose(g[k::4], one, rtol=0, atol=1e-13)
+    assert (g[4:8] == 0.0).all()

@@ -25,6 +25,7 @@ from poekin.solve.ik_all.solution_sets.evidence import (
 )
 from poekin.solve.ik_all.solution_sets.found import Found
 from poekin.solve.ik_all.solution_sets.places import Box, turns_within
+from poekin.solve.ik_all.solution_sets.self_motion import SelfMotion
 from poekin.solve.joint_units import bounds, periods
 from poekin.solve.ragged import Ragged
 
@@ -42,7 +43,7 @@ def found(count, *, ends=0, restarts=0, full=False, self_motion=(), width=6, hit
         np.array([restarts]),
         np.array([full]),
         np.array([False]),
-        {0: self_motion} if self_motion else {},
+        {0: SelfMotion(self_motion, np.zeros(width))} if self_motion else {},
     )
 
 

@@ -19,6 +19,7 @@ from poekin.solve.ik_all.ik_all import ik_all
 from poekin.solve.ik_all.ik_all_search import Rule
 from poekin.solve.ik_all.solution_sets.found import Found, joined, replaced
 from poekin.solve.ik_all.solution_sets.places import Box, turns_within
+from poekin.solve.ik_all.solution_sets.self_motion import SelfMotion
 from poekin.solve.joint_units import bounds, periods
 from poekin.solve.ragged import Ragged
 
@@ -267,45 +268,50 @@ def test_the_kernel_is_told_starts_ranges_rules_and_the_number_of_each_target(mo
 
 
 def test_found_solutions_are_kept_placed_joined_and_replaced_target_by_target():
+    along_a = SelfMotion(("a",), np.ones(2))
+    along_b = SelfMotion(("b",), np.ones(2))
     one = replace(
         found_at([[1, 1], [2, 2]], NOWHERE, [[3, 3.0]]),
         hits=np.array([5.0, 4, 3]),
         ends=np.array([9, 8, 7]),
-        self_motion={2: ("a",)},
+        self_motion={2: along_a},
     )
     assert one.least_hits().tolist() == [4, 0, 3]
     kept = one.kept(np.array([False, True, True]))
     assert (kept.q.counts.tolist(), kept.hits.tolist()) == ([1, 0, 1], [4, 3])
     placed = one.placed(np.array([0, 2, 3]), 5)
     assert placed.q.counts.tolist() == [2, 0, 0, 1, 0]
-    assert (placed.ends.tolist(), placed.self_motion) == ([9, 0, 8, 7, 0], {3: ("a",)})
+    assert (placed.ends.tolist(), placed.self_motion) == ([9, 0, 8, 7, 0], {3: along_a})
     both = joined([one, one], 2)
     assert both.q.counts.tolist() == [2, 0, 1] * 2
-    assert both.self_motion == {2: ("a",), 5: ("a",)}
+    assert both.self_motion == {2: along_a, 5: along_a}
     assert len(joined([], 2)) == 0
     new = replace(
-        found_at([[8, 8]], [[9, 9], [7, 7.0]]), ends=np.array([1, 2]), self_motion={0: ("b",)}
+        found_at([[8, 8]], [[9, 9], [7, 7.0]]), ends=np.array([1, 2]), self_motion={0: along_b}
     )
     mixed = replaced(one, np.array([1, 2]), new)
     assert mixed.q.rows[:, 0].tolist() == [1, 2, 8, 9, 7]
     assert mixed.q.counts.tolist() == [2, 1, 2]
     assert mixed.hits.tolist() == [5, 4, 1, 1, 1]
-    assert (mixed.ends.tolist(), mixed.self_motion) == ([9, 1, 2], {1: ("b",)})
+    assert (mixed.ends.tolist(), mixed.self_motion) == ([9, 1, 2], {1: along_b})
 
 
 def test_starts_of_a_locked_arm_have_the_locked_values():
     def starts(x: float, *unsure: bool) -> Any:
         def given(T: np.ndarray) -> Any:
             counts = np.where(T[:, 0, 3] > 1, 0, 2)
-            return np.full((counts.sum(), 1), x), counts, np.array(unsure)
+            return np.full((counts.sum(), 2), x), counts, np.array(unsure)
 
         return SimpleNamespace(starts=given)
 
-    values = np.array([[np.nan, 0.1], [np.nan, 0.2], [np.nan, 0.1]])
+    axes = [screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1, 2)]
+    chain = pk.Chain.from_space(axes, np.eye(4))
+    values = np.array([[np.nan, 0.1, np.nan], [np.nan, 0.2, np.nan], [np.nan, 0.1, np.nan]])
     solvers = [starts(5.0, False, True), starts(6.0, False)]
-    asked = sources.Solvers(solvers, np.array([0, 1, 0]))
+    between = np.array([True, False, True])
+    asked = sources.Solvers(solvers, np.array([0, 1, 0]), chain, between)
     T = np.tile(np.eye(4), (3, 1, 1))
     T[2, 0, 3] = 2.0
-    found, unsure = sources.starts_of(asked, T, values, np.array([True, False]))
-    assert [q.tolist() for q in found] == [[[5, 0.1]] * 2, [[6, 0.2]] * 2, []]
+    found, unsure = sources.starts_of(asked, T, values)
+    assert [q.tolist() for q in found] == [[[5, 0.1, 5]] * 2, [[6, 0.2, 6]] * 2, []]
     assert unsure.tolist() == [False, False, True]

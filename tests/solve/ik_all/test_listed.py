@@ -7,9 +7,11 @@ import pytest
 
 import poekin as pk
 from poekin.solve.ik_all import ik_all as module
+from poekin.solve.ik_all.closed_form import closed_form
 from poekin.solve.ik_all.solution_sets.found import Tally
 from poekin.solve.ik_all.solution_sets.listing import Listing, gathered
 from poekin.solve.ik_all.solution_sets.places import Places
+from poekin.solve.ik_all.solution_sets.self_motion import SelfMotion
 
 from .perturbed import perturbed
 
@@ -84,6 +86,27 @@ def test_a_rounded_arm_is_complete_by_its_exact_twin_and_elimination_where_that_
     np.testing.assert_allclose(found.q, expected.q, atol=1e-7)
 
 
+@pytest.mark.parametrize("name", ["ur5", "puma560", "kr5", "irb140", "perturbed"])
+def test_a_target_far_out_of_reach_has_no_solutions_without_a_search(monkeypatch, name):
+    chain = arms(name)
+    T = chain.fk(chain.random(4, 30))
+    T[10:, :3, 3] *= 10.0
+    expected = one_by_one(monkeypatch, chain, T)
+    monkeypatch.setattr(module, "_searched", None)
+    found = pk.ik_all(chain, T)
+    np.testing.assert_array_equal(found.counts, expected.counts)
+    assert (found.anywhere[10:] == 0).all()
+    assert found.complete.all()
+    assert found.explanation[15] == expected.explanation[15]
+
+
+@pytest.mark.parametrize("name", ["stanford", "cobra600"])
+def test_of_prismatic_joints_a_search_says_that_there_is_no_solution(name):
+    closed = closed_form(arms(name))
+    assert closed is not None
+    assert closed.none_below == -np.inf
+
+
 def test_threads_list_the_same():
     chain = pk.load("kr5").chain()
     T = chain.fk(chain.random(6, 700))
@@ -104,7 +127,7 @@ def outcome(owner: list[int], within: list[int], name: str) -> Listing:
         restarts=np.zeros(count, int),
         full=np.zeros(count, bool),
         sure=np.ones(count, bool),
-        self_motion={0: (name,)},
+        self_motion={0: SelfMotion((name,), np.zeros(1))},
     )
     return Listing(places, np.stack([numbers, numbers], axis=1), tally)
 
@@ -120,4 +143,4 @@ def test_parts_of_a_batch_are_put_together_target_by_target():
     assert whole.places.within.tolist() == [2, 0, 1, 1]
     assert whole.tally.found.tolist() == [2, 0, 1, 1]
     assert whole.tally.ends.tolist() == [2, 0, 2, 2]
-    assert whole.tally.self_motion == {0: ("a",), 2: ("b",)}
+    assert {k: one.names for k, one in whole.tally.self_motion.items()} == {0: ("a",), 2: ("b",)}

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, ShapeError, UnknownName
+from poekin.solve.ik_all import sources
 from poekin.solve.ik_all.ik_all import ik_all
 from poekin.solve.ik_all.swivel import curves, redundant_coordinate, sample_values
 
@@ -57,6 +58,27 @@ def test_solutions_of_a_locked_arm_reach_the_target_with_what_is_locked_at_its_v
     J = PANDA.jacobian(q, "hybrid")[:, free]
     if np.linalg.svd(J, compute_uv=False)[-1] > 0.02:
         assert np.abs(found.q - q).max(axis=1).min(initial=np.inf) <= 1e-6
+
+
+@pytest.mark.parametrize("names", [["panda_joint1"], ["panda_joint7"]], ids=str)
+def test_values_at_an_end_have_the_solutions_that_each_has_by_an_arm_of_its_own(monkeypatch, names):
+    q = PANDA.random(11, 25)
+    T = PANDA.fk(q)
+    T[3, :3, 3] += 5.0  # out of reach
+    lock = {name: q[:, PANDA.q_names.index(name)] for name in names}
+    found = ik_all(PANDA, T, lock=lock, limits=False)
+    with monkeypatch.context() as patch:
+        patch.setattr(sources, "at_ends", lambda chain, free: np.zeros(7, bool))
+        patch.setattr(sources, "brought_back", lambda chain, T, values, free: T)
+        expected = ik_all(PANDA, T, lock=lock, limits=False)
+    np.testing.assert_array_equal(found.counts, expected.counts)
+    assert found.counts[3] == 0
+    # rounding of a target by the least singular value of these poses, 1e-3 or more
+    assert (np.abs((found.q - expected.q + np.pi) % TURN - np.pi) <= 1e-9).all()
+    np.testing.assert_array_equal(found.complete, expected.complete)
+    for name, values in lock.items():
+        k = PANDA.q_names.index(name)
+        np.testing.assert_array_equal(found.q[:, k], values[found.target_number])
 
 
 def test_each_target_of_a_batch_may_have_its_own_locked_value():

@@ -12,8 +12,10 @@ from typing import NamedTuple
 from ....algebra import rotate, subtract, transform
 from ....formulas import elementary
 from ....formulas.ik.elimination import circle_roots, joints, line_equations, resultant
+from ...jit.array_io import without_refcount
 from ...jit.kernel import kernel
 from ...lanes import rows as lanes
+from ...straight_line.arctangent import atan2
 from .elimination_loop import (
     BEGIN,
     QUARTERS,
@@ -139,7 +141,7 @@ def _pass(arm, one, view, scratch, rows, count):
             if not _value(scratch.solved, GAP, k) <= _CLOSE or count >= rows.shape[0]:
                 unsure = True
             else:
-                _set(arm, rows[count], scratch.solved, k)
+                _set(arm, rows[count], scratch.angles, k)
                 rows[count, 6] = abs(scratch.found[2 * _ROOM + first + k]) / steepest
                 if _is_new(rows, count):
                     count += 1
@@ -205,6 +207,9 @@ def _sharpen(one, view, scratch, first, some):
             is_close = is_close and _value(scratch.solved, GAP, k) <= _CLOSE
         if is_close:
             break
+    angles = lanes.rows(scratch.angles)
+    for joint in range(6):
+        angles[joint] = atan2(solved[2 * joint + 1], solved[2 * joint])
 
 
 def _joints(one, view, x, y, v, solved):
@@ -251,7 +256,7 @@ def _is_new(rows, count):
     return True
 
 
-def _set(arm, row, solved, k):
+def _set(arm, row, angles, k):
     """The k-th solution's angles of the loop's joints, at their places in the arm, into a row."""
     how = arm[8]
     begin = int(how[BEGIN])
@@ -259,15 +264,21 @@ def _set(arm, row, solved, k):
         i = (joint + begin) % 6
         if how[REVERSED] != 0.0:
             i = 5 - i
-        c = _value(solved, 2 * joint, k)
-        s = _value(solved, 2 * joint + 1, k)
-        row[i] = math.atan2(s, c)
+        row[i] = _value(angles, joint, k)
 
 
 @kernel("w2 w3 w3 w2")
 def eliminated(arm, targets, rows, counts):
     """All solutions of each target; their number, and 1 where there may be others."""
-    scratch = make_scratch()
+    eliminate(arm, targets, rows, counts, make_scratch())
+
+
+def eliminate(arm, targets, rows, counts, scratch):
+    """`eliminated` with the arrays of a call."""
+    arm = without_refcount(arm)
+    targets = without_refcount(targets)
+    rows = without_refcount(rows)
+    scratch = without_refcount(scratch)
     for k in range(targets.shape[0]):
         count, unsure = fill(arm, targets[k], rows[k], scratch, k == 0)
         counts[k, 0] = count

@@ -35,6 +35,7 @@ class EliminationScratch(NamedTuple):
     brackets: np.ndarray
     v: np.ndarray
     solved: np.ndarray
+    angles: np.ndarray
 
 
 def make_scratch():
@@ -54,6 +55,7 @@ def make_scratch():
         np.empty(circle_roots.FIELDS * _ROOM),
         np.empty(_TOGETHER * resultant.SIZE),
         np.empty(_TOGETHER * (GAP + 1)),
+        np.empty(_TOGETHER * 6),
     )
 
 

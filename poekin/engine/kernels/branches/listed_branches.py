@@ -6,31 +6,38 @@ of `ik_all_kernel` tells them apart.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from ....algebra import dot, store_row
-from ....formulas.inverse import confirmed, least_squares
+from ...jit.array_io import without_refcount
 from ...jit.kernel import kernel
-from ..arm_kernels import run_one
+from ...straight_line.machine_code import LANES
 from ..ik_all_kernel import wrapped_difference
-from ..ik_codes import ITERATIONS, TOL_POSITION, TOL_ROTATION
-from ..ik_kernels import CODE, STEP, KernelProblem, scratch_of_try
+from .sharpen import (
+    POSITION,
+    ROTATION,
+    Branches,
+    BranchProblem,
+    is_reached,
+    sharpen,
+    sharpening,
+)
 
 # Where each number stands in `rule`: margin above which a branch is a solution, and below whose
-# negative it is none; how far (rad or m) a solution may be from its branch.
+# negative it is none; how far (rad or m) a solution may be from its branch; and below whose negative
+# the margins of a target without any solution are.
 CLEAR = 0
 ABSENT = 1
 MOVED = 2
-RULE = 3
+HOPELESS = 3
+RULE = 4
 # Where each number stands in a row of `box`.
 LOW = 0
 HIGH = 1
 PERIOD = 2
 BOX = 3
-# Where each number stands in a row of `errors`: m, rad, and in how many places the solution is.
-POSITION = 0
-ROTATION = 1
+# Where in a row of `errors`, after m and rad, it stands in how many places the solution is.
 PLACES = 2
 ERRORS = 3
 # Where each number stands in a row of `info`: solutions anywhere, those within the limits, and
@@ -46,142 +53,199 @@ _EDGE = 1e-12  # rad or m: a solution that is outside the limits by less is at t
 _ROUNDED = 1e9  # solutions are sorted by so many parts of a rad or m
 
 
-def pose_difference(T, target):
-    """|p* - p| (m) and the sine of the angle between two poses (4, 4), 1 beyond a quarter turn."""
-    e = confirmed.pose_error(T, target)
-    w = (e[0], e[1], e[2])
-    p = (e[3], e[4], e[5])
-    return math.sqrt(dot(p, p)), math.sqrt(dot(w, w))
-
-
-def sharpen(problem, target, q, work):
-    """Newton's rule from q, in place: whether it ends at the target, and the errors (m, rad) there."""
-    m = len(q)
-    ones = np.ones(6)
-    H = work.H
-    step = work.rows[STEP]
-    for _ in range(int(problem.options[ITERATIONS])):
-        run_one(problem.arm, q, work.T, work.J, work.rows[CODE])
-        position, rotation = pose_difference(work.T, target)
-        if position <= problem.options[TOL_POSITION] and rotation <= problem.options[TOL_ROTATION]:
-            return True, position, rotation
-        e = confirmed.pose_error(work.T, target)
-        least_squares.normal_equations(work.J, e, ones, 0.0, 1.0 - problem.fixed, m, H, step)
-        least_squares.solve(H, step, m)
-        for i in range(m):
-            q[i] += step[i]
-    return False, math.inf, math.inf
-
-
-def is_moved(q, before, most):
-    """Whether any coordinate has moved by more than `most`, or is NaN."""
+def is_moved(q, k, before, b, most):
+    """Whether any coordinate of row k has moved by more than `most` from row b, or is NaN."""
     moved = False
-    for i in range(len(q)):
-        moved |= not abs(q[i] - before[i]) <= most
+    for i in range(q.shape[1]):
+        moved |= not abs(q[k, i] - before[b, i]) <= most
     return moved
 
 
-def is_known(q, others, count, box):
-    """Whether a configuration is one of `count` others."""
-    for k in range(count):
+def is_known(q, k, first, box):
+    """Whether row k of q is one of the rows before it from the first of its target on."""
+    m = q.shape[1]
+    for j in range(first, k):
         i = 0
-        while i < len(q) and abs(wrapped_difference(q[i] - others[k, i], box[i, PERIOD])) <= _APART:
+        while i < m and abs(wrapped_difference(q[k, i] - q[j, i], box[i, PERIOD])) <= _APART:
             i += 1
-        if i == len(q):
+        if i == m:
             return True
     return False
 
 
-def placed(q, box):
-    """Brings a configuration to its place within the limits that is nearest to 0; returns the number
-    of places, 0 where there is none.
+def placed(q, k, box):
+    """Brings row k of q to its place within the limits that is nearest to 0; returns the number of
+    places, 0 where there is none.
     """
     number = 1.0
-    for i in range(len(q)):
+    for i in range(q.shape[1]):
+        x = q[k, i]
         low = box[i, LOW]
         high = box[i, HIGH]
         period = box[i, PERIOD]
         if period > 0.0:
-            first = np.ceil((low - _EDGE - q[i]) / period)
-            last = np.floor((high + _EDGE - q[i]) / period)
+            if low == -math.inf and high == math.inf:
+                q[k, i] = x + 0.0
+                continue
+            first = np.ceil((low - _EDGE - x) / period)
+            last = np.floor((high + _EDGE - x) / period)
             if first > last:
                 return 0.0
             if -math.inf < first and last < math.inf:
                 number *= last - first + 1.0
-            q[i] += period * min(max(0.0, first), last)
-        elif not low - _EDGE <= q[i] <= high + _EDGE:
+            x += period * min(max(0.0, first), last)
+        elif not low - _EDGE <= x <= high + _EDGE:
             return 0.0
-        q[i] = min(max(q[i], low), high) + 0.0
+        q[k, i] = min(max(x, low), high) + 0.0
     return number
 
 
-def is_before(a, b):
-    """Whether a configuration stands before another one in the list."""
-    for i in range(len(a)):
-        x = np.rint(a[i] * _ROUNDED)
-        y = np.rint(b[i] * _ROUNDED)
-        if x != y:
-            return x < y
+def is_before(keys, a, b):
+    """Whether row a of the keys stands before row b."""
+    for i in range(keys.shape[1]):
+        if keys[a, i] != keys[b, i]:
+            return keys[a, i] < keys[b, i]
     return False
 
 
-def insert(q, one, errors, numbers, count):
-    """Insert a configuration and its numbers into the `count` that are listed, in order."""
+def insert(keys, order, count):
+    """Put the row after the `count` that are in order among them."""
     k = count
-    while k > 0 and is_before(one, q[k - 1]):
-        store_row(q[k], q[k - 1])
-        store_row(errors[k], errors[k - 1])
+    while k > 0 and is_before(keys, count, order[k - 1]):
+        order[k] = order[k - 1]
         k -= 1
-    store_row(q[k], one)
-    store_row(errors[k], numbers)
+    order[k] = count
 
 
-@kernel("int w3 w2 w4 w3 w2 w1 w1 w1 w3 w2")
-def listed(code, q, margins, poses, targets, box, fixed, options, rule, errors, info):
-    """Solutions of targets (N, 4, 4) among the branches q (N, B, m), brought to the front of q, in
-    order; their errors (N, B, 3) beside them.
+def may_be(margin, rule):
+    """Whether a branch of this margin may be a solution; NaN is of none."""
+    return margin >= -rule[ABSENT]
 
-    `code` is the arm's own, of pose and hybrid Jacobian; `margins` (N, B) are the branches', NaN
-    where there is none, and `poses` (N, B, 4, 4) the arm's there. `fixed` (m) is 1 for what is
-    locked.
+
+def gather(rows, rule, q, owners):
+    """Write the branches that may be solutions into rows of q, one target's after the other's, with
+    the numbers of these; returns how many there are. Some more rows after them are the last one's.
     """
-    m = q.shape[2]
-    limits = np.empty((m, 2))
-    limits[:, 0] = -math.inf
-    limits[:, 1] = math.inf
-    problem = KernelProblem(code, limits, fixed, options)
-    work = scratch_of_try(m)
-    known = np.empty((q.shape[1], m))
-    one = np.empty(m)
+    m = q.shape[1]
+    count = 0
+    for k in range(rows.shape[0]):
+        for b in range(rows.shape[1]):
+            if may_be(rows[k, b, m], rule):
+                for i in range(m):
+                    q[count, i] = rows[k, b, i]
+                owners[count] = k
+                count += 1
+    last = max(count - 1, 0)
+    for k in range(count, count + LANES):
+        for i in range(m):
+            q[k, i] = q[last, i]
+        owners[k] = owners[last]
+    return count
+
+
+@kernel("int w3 w3 w2 w1 w1 w1 w2 w2 w2")
+def listed(code, rows, targets, box, fixed, options, rule, q, errors, info):
+    """Solutions of targets (N, 4, 4) among branches (N, B, m + 1), coordinates and margin: written
+    one target's after the other's, in order, into q (S, m) and their errors (S, 3).
+
+    `code` is the arm's own, of pose and hybrid Jacobian; a margin is NaN where there is no branch.
+    `fixed` (m) is 1 for what is locked.
+    """
+    problem = BranchProblem(code, box, rule, options)
+    most = rows.shape[1]
+    m = q.shape[1]
+    room = rows.shape[0] * most + LANES
+    branches = Branches(
+        np.empty((room, m)),
+        np.empty((room, 2)),
+        np.zeros(room, np.int64),
+    )
+    one = Listed(
+        np.empty((most, m)),
+        np.empty((most, m)),
+        np.empty((most, ERRORS)),
+        np.empty(most, np.int64),
+    )
+    list_all(problem, rows, targets, branches, one, sharpening(fixed), (q, errors, info))
+
+
+class Listed(NamedTuple):
+    """Solutions of one target: coordinates, keys by which they are sorted, numbers, and their order."""
+
+    q: np.ndarray
+    keys: np.ndarray
+    numbers: np.ndarray
+    order: np.ndarray
+
+
+def list_all(problem, rows, targets, branches, one, work, out):
+    """`listed` with the arrays of a call."""
+    problem = without_refcount(problem)
+    rows = without_refcount(rows)
+    targets = without_refcount(targets)
+    branches = without_refcount(branches)
+    one = without_refcount(one)
+    work = without_refcount(work)
+    q, errors, info = without_refcount(out)
+    count = gather(rows, problem.rule, branches.q, branches.owners)
+    for first in range(0, count, LANES):
+        sharpen(problem, targets, branches, first, work)
+    first = 0
+    total = 0
     for k in range(targets.shape[0]):
-        clear = True
-        found = 0
-        within = 0
-        for b in range(q.shape[1]):
-            margin = margins[k, b]
-            if margin < -rule[ABSENT] or margin != margin:
-                continue
-            store_row(one, q[k, b])
-            position, rotation = pose_difference(poses[k, b], targets[k])
-            clear = margin > rule[CLEAR]
-            if position > options[TOL_POSITION] or rotation > options[TOL_ROTATION]:
-                reached, position, rotation = sharpen(problem, targets[k], one, work)
-                clear &= reached and not is_moved(one, q[k, b], rule[MOVED])
-            for i in range(m):
-                one[i] = wrapped_difference(one[i], box[i, PERIOD])
-            clear &= not is_known(one, known, found, box)
-            if not clear:
-                break
-            store_row(known[found], one)
-            found += 1
-            places = placed(one, box)
-            if is_moved(one, known[found - 1], _FAR):
-                clear = False
-                break
-            if places > 0.0:
-                insert(q[k], one, errors[k], (position, rotation, places), within)
+        number, within = list_one(problem, rows[k], branches, first, one, info[k])
+        for i in range(within):
+            place = one.order[i]
+            for j in range(q.shape[1]):
+                q[total + i, j] = one.q[place, j]
+            for j in range(ERRORS):
+                errors[total + i, j] = one.numbers[place, j]
+        first += number
+        total += within
+
+
+def list_one(problem, rows, branches, first, one, info):
+    """List the solutions of one target, whose branches are the first of some; returns the number of
+    its branches that may be such, and that of the solutions.
+    """
+    box = problem.box
+    rule = problem.rule
+    found = branches.q
+    ends = branches.errors
+    places = one.q
+    keys = one.keys
+    m = found.shape[1]
+    clear = True
+    hopeless = True
+    at = first
+    within = 0
+    for b in range(rows.shape[0]):
+        hopeless &= not rows[b, m] >= -rule[HOPELESS]
+        if not may_be(rows[b, m], rule):
+            continue
+        clear &= rows[b, m] > rule[CLEAR] and is_reached(ends, at, problem.options)
+        clear &= not is_moved(found, at, rows, b, rule[MOVED])
+        for i in range(m):
+            found[at, i] = wrapped_difference(found[at, i], box[i, PERIOD])
+            places[within, i] = found[at, i]
+        clear = clear and not is_known(found, at, first, box)
+        if clear:
+            number = placed(places, within, box)
+            clear = not is_moved(places, within, found, at, _FAR)
+            if number > 0.0:
+                for i in range(m):
+                    keys[within, i] = np.rint(places[within, i] * _ROUNDED)
+                one.numbers[within, POSITION] = ends[at, POSITION]
+                one.numbers[within, ROTATION] = ends[at, ROTATION]
+                one.numbers[within, PLACES] = number
+                insert(keys, one.order, within)
                 within += 1
-        info[k, FOUND] = found
-        info[k, WITHIN] = within
-        # where axes line up, branches that are none may be of infinitely many solutions
-        info[k, IS_CLEAR] = int(clear and found > 0)
+        at += 1
+    # where axes line up, branches that are none may be of infinitely many solutions
+    clear = clear and (at > first or hopeless)
+    if not clear:
+        within = 0
+    info[FOUND] = at - first
+    info[WITHIN] = within
+    info[IS_CLEAR] = int(clear)
+    return at - first, within

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-import numpy as np
-
 from ....engine.kernels.branches import closed_kernels
 from ....engine.kernels.branches.closed_arm import BRANCHES
 from ....errors import InputError, quote
@@ -33,8 +31,7 @@ class ClosedArm(NamedTuple):
 
     def branches(self, target: Array) -> Array:
         """Rows for one target; those that are not filled in are NaN."""
-        rows, margins = branch_rows(self.arm, self.columns - 1, target[None])
-        return np.concatenate([rows[0], margins[0][:, None]], axis=1)
+        return branch_rows(self.arm, self.columns - 1, target[None])[0]
 
 
 def closed_arm(chain: Chain) -> ClosedArm:

@@ -52,13 +52,15 @@ def sharp_arm(chain: Chain) -> SharpArm | None:
     return best
 
 
-def branch_rows(arm: Array, dof: int, T: Array) -> tuple[Array, Array]:
-    """Branches (N, 8, m) of targets (N, 4, 4) and their margins (N, 8), NaN where there are fewer."""
+def branch_rows(arm: Array, dof: int, T: Array) -> Array:
+    """Branches (N, 8, m + 1) of targets (N, 4, 4), coordinates and margin, NaN where there are
+    fewer.
+    """
     from ....engine.kernels.branches import closed_kernels as kernel  # which imports Numba
 
     rows = np.empty((len(T), closed_arm.BRANCHES, dof + 1))
     kernel.branches_of(arm).call(arm, np.array(T, np.float64, order="C"), rows)
-    return rows[:, :, :-1], rows[:, :, -1]
+    return rows
 
 
 def _home(chain: ChainData) -> Array:
@@ -81,7 +83,7 @@ def _error(arm: Array, q: Array, T: Array) -> float:
     """Largest distance of the nearest branch from the configurations that poses were made of; inf
     without any.
     """
-    rows, _ = branch_rows(arm, q.shape[1], T)
+    rows = branch_rows(arm, q.shape[1], T)[:, :, :-1]
     off = np.abs(rows - q[:, None])
     turns = arm[:6, closed_arm.SLIDES] == 0
     columns = arm[:6, closed_arm.COLUMN][turns].astype(int)

@@ -13,6 +13,7 @@ import numpy as np
 from ....errors import join_names
 from ....groups.arrays import Array
 from .found import Tally
+from .self_motion import SelfMotion
 
 BAD_TARGET = "0 solutions: bad target, it is not made of finite numbers"
 
@@ -41,7 +42,7 @@ class Evidence:
     within, those within the limits; least_hits, how often the rarest of them was found; ends, tries
     that ended at any; restarts, random tries, 0 where a closed form was enough; full, whether there
     may be more for want of room; sure, as of `Tally`; p_missing, see `missing_probability`; self_motion, by number of
-    the target the coordinates that move along a continuum; free, how many coordinates may move;
+    the target its continuum; free, how many coordinates may move;
     solver, None for the search; sampling, None but for redundant arms.
     """
 
@@ -54,7 +55,7 @@ class Evidence:
     full: np.ndarray
     sure: np.ndarray
     p_missing: Array
-    self_motion: Mapping[int, tuple[str, ...]]
+    self_motion: Mapping[int, SelfMotion]
     free: int
     solver: SolverUsed | None
     sampling: Sampling | None = None
@@ -113,14 +114,14 @@ class Evidence:
         alone = ""
         if s > 1:
             alone = f" and {s - 1} that stand{'s' * (s == 2)} alone"
-        names = join_names(self.self_motion[k])
+        names = join_names(self.self_motion[k].names)
         return f"infinitely many solutions, along which {names} move; one of them{alone}"
 
 
-def has_self_motion(self_motion: Mapping[int, tuple[str, ...]], count: int) -> np.ndarray:
+def has_self_motion(self_motion: Mapping[int, SelfMotion], count: int) -> np.ndarray:
     """Whether each of `count` targets has coordinates that move along a continuum."""
     has = np.zeros(count, bool)
-    has[[k for k, names in self_motion.items() if names]] = True
+    has[list(self_motion)] = True
     return has
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ....groups.arrays import Array
 from ...ragged import Ragged
+from .self_motion import SelfMotion
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,8 +20,7 @@ class Found:
     Attributes: q, the solutions of each target (S, m); hits (S,), how often each was found; ends
     (N,), how many tries ended at any of them; restarts (N,), 0 where the given starts were enough;
     full (N,), whether there was no room for more; singular (N,), whether any of them is singular;
-    self_motion, by number of the target the names of the coordinates that move along a continuum of
-    solutions, of which one solution is listed.
+    self_motion, by number of the target the continuum of solutions, of which one is listed.
     """
 
     q: Ragged
@@ -29,7 +29,7 @@ class Found:
     restarts: np.ndarray
     full: np.ndarray
     singular: np.ndarray
-    self_motion: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
+    self_motion: Mapping[int, SelfMotion] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.q)
@@ -55,7 +55,7 @@ class Found:
             restarts=_scattered(self.restarts, numbers, count),
             full=_scattered(self.full, numbers, count),
             singular=_scattered(self.singular, numbers, count),
-            self_motion={int(numbers[k]): names for k, names in self.self_motion.items()},
+            self_motion={int(numbers[k]): motion for k, motion in self.self_motion.items()},
         )
 
     def tally(self, sure: bool) -> Tally:
@@ -82,7 +82,7 @@ class Tally(NamedTuple):
     restarts: np.ndarray
     full: np.ndarray
     sure: np.ndarray
-    self_motion: Mapping[int, tuple[str, ...]]
+    self_motion: Mapping[int, SelfMotion]
 
 
 def joined(parts: Sequence[Found], dof: int) -> Found:
@@ -98,9 +98,9 @@ def joined(parts: Sequence[Found], dof: int) -> Found:
         full=np.concatenate([part.full for part in parts]),
         singular=np.concatenate([part.singular for part in parts]),
         self_motion={
-            int(k + start): names
+            int(k + start): motion
             for start, part in zip(before, parts, strict=False)
-            for k, names in part.self_motion.items()
+            for k, motion in part.self_motion.items()
         },
     )
 
@@ -122,7 +122,7 @@ def replaced(found: Found, numbers: np.ndarray, others: Found) -> Found:
         restarts=np.where(kept, found.restarts, new.restarts),
         full=np.where(kept, found.full, new.full),
         singular=np.where(kept, found.singular, new.singular),
-        self_motion={k: names for k, names in found.self_motion.items() if kept[k]}
+        self_motion={k: motion for k, motion in found.self_motion.items() if kept[k]}
         | dict(new.self_motion),
     )
 

@@ -48,9 +48,9 @@ def gathered(parts: Sequence[tuple[np.ndarray, Listing]], count: int) -> Listing
         full=_scattered([(numbers, one.full) for numbers, one in tallies], count),
         sure=_scattered([(numbers, one.sure) for numbers, one in tallies], count),
         self_motion={
-            int(numbers[k]): names
+            int(numbers[k]): motion
             for numbers, one in tallies
-            for k, names in one.self_motion.items()
+            for k, motion in one.self_motion.items()
         },
     )
     errors = np.concatenate([one.errors for _, one in parts])[order]

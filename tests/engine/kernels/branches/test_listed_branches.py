@@ -18,7 +18,7 @@ from poekin.solve.ragged import Ragged
 
 TURN = 2 * np.pi
 Q = np.array([0.4, -1.2, 1.5, -0.3, 0.8, 0.2])
-RULE = np.array([1e-12, 1e-9, 1e-4])
+RULE = np.array([1e-12, 1e-9, 1e-4, np.inf])
 ANYWHERE = np.tile([-np.inf, np.inf, TURN], (6, 1))
 
 
@@ -32,17 +32,19 @@ def branches() -> tuple[CompiledChain, np.ndarray, np.ndarray, np.ndarray]:
     return chain.compile(), T, rows.copy(), margins.copy()
 
 
-def listed(arm, T, rows, margins, box=ANYWHERE):
+def listed(arm, T, rows, margins, box=ANYWHERE, rule=RULE):
     """Solutions, their errors and places, and the counts."""
-    q = rows.copy()
-    errors = np.empty((*q.shape[:2], kernel.ERRORS))
-    info = np.empty((1, kernel.INFO))
+    branches = np.concatenate([rows, margins[:, :, None]], axis=2)
+    room = len(rows) * rows.shape[1]
+    q = np.empty((room, 6))
+    errors = np.empty((room, kernel.ERRORS))
+    info = np.empty((len(rows), kernel.INFO))
     options = kernel_options(POSE, 1e-13, 1e-13, 8)
     kernel.listed.call(
-        arm.hybrid_address, q, margins, arm.fk(q), T, box, np.zeros(6), options, RULE, errors, info
+        arm.hybrid_address, branches, T, box, np.zeros(6), options, rule, q, errors, info
     )
-    within = int(info[0, kernel.WITHIN])
-    return q[0, :within], errors[0, :within], info[0]
+    within = int(info[:, kernel.WITHIN].sum())
+    return q[:within], errors[:within], info if len(rows) > 1 else info[0]
 
 
 def test_branches_clear_of_one_another_are_listed_in_order_with_their_errors():
@@ -50,7 +52,7 @@ def test_branches_clear_of_one_another_are_listed_in_order_with_their_errors():
     q, errors, info = listed(arm, T, rows, margins)
     assert info.tolist() == [8, 8, 1]
     assert q.round(9).tolist() == sorted(q.round(9).tolist())
-    assert (errors[:, kernel.POSITION : kernel.ROTATION + 1] < 1e-13).all()
+    assert (errors[:, : kernel.PLACES] < 1e-13).all()
     assert (errors[:, kernel.PLACES] == 1).all()
 
 
@@ -78,6 +80,35 @@ def test_a_target_with_any_branch_that_is_not_clear_is_left_to_the_search(fault)
         rows[0, 3, 2] = np.nan
     *_, info = listed(arm, T, rows, margins)
     assert not info[kernel.IS_CLEAR]
+
+
+def test_a_target_without_solutions_is_clear_where_all_of_its_margins_tell_so():
+    arm, T, rows, margins = branches()
+    rule = RULE.copy()
+    rule[kernel.HOPELESS] = 0.01
+    margins[:] = -0.02
+    margins[0, 6:] = np.nan
+    *_, info = listed(arm, T, rows, margins, rule=rule)
+    assert info.tolist() == [0, 0, 1]
+    margins[0, 2] = -0.005
+    *_, info = listed(arm, T, rows, margins, rule=rule)
+    assert info.tolist() == [0, 0, 0]
+
+
+def test_targets_are_listed_one_after_the_other_without_those_that_are_not_clear():
+    arm, T, rows, margins = branches()
+    T = np.repeat(T, 3, axis=0)
+    rows = np.repeat(rows, 3, axis=0)
+    margins = np.repeat(margins, 3, axis=0)
+    margins[0, 2] = np.nan
+    rows[1, 5] += 1.0
+    q, errors, info = listed(arm, T, rows, margins)
+    assert info.tolist() == [[7, 7, 1], [8, 0, 0], [8, 8, 1]]
+    assert len(q) == 15
+    first, *_ = listed(arm, T[:1], rows[:1], margins[:1])
+    last, *_ = listed(arm, T[2:], rows[2:], margins[2:])
+    np.testing.assert_array_equal(q, np.concatenate([first, last]))
+    assert (errors[:, : kernel.PLACES] < 1e-13).all()
 
 
 @pytest.mark.parametrize("margin", [-1.0, -1e-8, np.nan])
@@ -113,12 +144,12 @@ def test_the_place_of_a_solution_and_the_number_of_its_places_are_those_of_make_
     limits[np.isinf(limits[:, 1]), 0] = -np.inf
     periods = np.where(turns, TURN, 0.0)
     box = np.column_stack([limits, periods])
-    one = np.array(q)
-    number = kernel.placed(one, box)
+    one = np.array([q])
+    number = kernel.placed(one, 0, box)
     # chain and limits of joints are not asked for where these do not count
     chain = pk.load("ur5").chain()
     found = Ragged(np.array([q]), np.array([1]))
     places = make_places(chain, found, Box(limits, periods), False, False)
     assert number == (places.number[0] if len(places.q) else 0)
     if number:
-        np.testing.assert_array_equal(one, places.q[0])
+        np.testing.assert_array_equal(one[0], places.q[0])

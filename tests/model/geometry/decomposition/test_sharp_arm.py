@@ -24,8 +24,9 @@ def test_the_joints_of_a_pose_are_among_its_branches(name, words):
     assert found is not None
     assert found.words == words
     q = np.random.default_rng(2).uniform(-1.0, 1.0, (50, 6))
-    rows, margins = branch_rows(found.arm, 6, chain.fk(q))
-    off = np.abs((rows - q[:, None] + np.pi) % (2 * np.pi) - np.pi).max(axis=2)
+    branches = branch_rows(found.arm, 6, chain.fk(q))
+    margins = branches[:, :, 6]
+    off = np.abs((branches[:, :, :6] - q[:, None] + np.pi) % (2 * np.pi) - np.pi).max(axis=2)
     best = np.where(np.isnan(off), np.inf, off).argmin(axis=1)
     at = np.arange(len(q))
     assert off[at, best].max() <= 1e-8
