@@ -95,7 +95,8 @@ def _figures(
         Figure(
             "faults of libraries, re-created, that are caught", len(faults) - good, 0,
             shown=f"{good} of {len(faults)}", bar_shown="all",
-            note=f"within {BROKEN_WITHIN:g} s each; at most three numbers of the counterexample are not 0",
+            note=f"each by the law that it breaks, within {BROKEN_WITHIN:g} s; at most three numbers of the "
+            "counterexample are not 0",
         ),
         Figure(
             "false findings against subjects that compute in 60 digits", false, 0, note=f"{total} examples; "
