@@ -44,15 +44,28 @@ class Run:
             self.done.append(name)
         self.write()
 
-    def measure_together(self, names: Sequence[str], *, quick: bool) -> None:
+    def measure_all(self, names: Sequence[str], *, quick: bool, look: bool = False) -> None:
+        """Run the topics that are not timed side by side, and each of the others after them."""
+        together = [name for name in UNTIMED if name in names]
+        if len(together) < 2:
+            together = []
+        self.measure_together(together, quick=quick, look=look)
+        for name in names:
+            if name not in together:
+                self.measure(name, quick=quick, look=look)
+
+    def measure_together(self, names: Sequence[str], *, quick: bool, look: bool = False) -> None:
         """Run topics that are not timed, in a process a core, and write the page after each."""
-        self.say(f"{', '.join(names)} …{self._time_left(look=False)}")
+        if not names:
+            return
+        self.say(f"{', '.join(names)} …{self._time_left(look)}")
         count = len(names)
         with workers() as share:
             found = share(_apart, names, [quick] * count, [peers.chosen_names()] * count)
             for name, topic in zip(names, found, strict=True):
                 self._keep(name, topic)
-                self.done.append(name)
+                if not look:
+                    self.done.append(name)
                 self.write()
                 self.say(f"{name}: {topic.seconds:g} s")
 

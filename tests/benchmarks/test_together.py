@@ -45,7 +45,8 @@ def run(monkeypatch, tmp_path):
 
     for place in (command, measuring):
         monkeypatch.setattr(place, "TOPICS", topics)
-        monkeypatch.setattr(place, "UNTIMED", ("second", "first"))
+    monkeypatch.setattr(measuring, "UNTIMED", ("second", "first"))
+    monkeypatch.setattr(command, "OPENING", ("first", "second"))
     # In this process, but each result as it comes from another one.
     monkeypatch.setattr(measuring, "workers", lambda: contextlib.nullcontext(share))
 
@@ -83,6 +84,16 @@ def test_topics_side_by_side_are_all_on_the_page_and_one_that_breaks_off_ends_no
     assert first["figures"][0]["what"] == "beside SciPy"
     assert first["quick"]
     assert document["left"] == 0
+
+
+def test_a_look_is_side_by_side_too_and_is_followed_by_the_measurement(run, tmp_path, capsys):
+    assert run() == 1
+    said = capsys.readouterr().out
+    # what is looked at and what is measured, each with its lines of progress
+    assert said.count("second, first …") == 2
+    assert said.count("first: half of it") == 2
+    topics = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["topics"]
+    assert [topic["quick"] for topic in topics] == [False, False, False]
 
 
 def test_the_names_of_the_chosen_peers_choose_them_again():
