@@ -1,9 +1,10 @@
 """`python -m benchmarks [--quick] [--output DIR] [--only TOPIC …] [--peers PEER …]`: measure, and
 write the report.
 
-The page is there after a quick look at the topics that open it, and is written again after each
-topic. Those that are not timed come first, side by side; of the others each has the machine for
-itself. Ctrl-C ends the measuring; the report is written with what there is.
+The kernels that this machine does not have are compiled first. The page is there after a quick look
+at the topics that open it, and is written again after each topic. Those that are not timed come
+first, side by side; of the others each has the machine for itself. Ctrl-C ends the measuring; the
+report is written with what there is.
 """
 
 from __future__ import annotations
@@ -54,6 +55,8 @@ def main() -> int:
     looks = () if options.only or options.quick else OPENING
     interrupted = False
     try:
+        if looks:
+            run.compile_kernels()
         run.measure_all(looks, quick=True, look=True)
         run.measure_all(run.names, quick=options.quick)
     except KeyboardInterrupt:

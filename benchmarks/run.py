@@ -9,6 +9,9 @@ import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from poekin.engine.jit import cache
+from poekin.engine.warm import kernels
+
 from . import peers
 from .cases import SECTION_OF, TOPICS, UNTIMED
 from .machine import machine
@@ -43,6 +46,16 @@ class Run:
         if not look:
             self.done.append(name)
         self.write()
+
+    def compile_kernels(self) -> None:
+        """Compile the kernels that the cache does not have, in a process a core: each topic would
+        wait for its own alone.
+        """
+        if cache.usable_directory() is None:
+            return
+        self.say("kernels for this machine …")
+        with workers() as share:
+            list(share(_ready, kernels()))
 
     def measure_all(self, names: Sequence[str], *, quick: bool, look: bool = False) -> None:
         """Run the topics that are not timed side by side, and each of the others after them."""
@@ -133,6 +146,11 @@ def _apart(name: str, quick: bool, chosen: Sequence[str]) -> Topic:
     """A topic in a process of its own, whose lines have its name before them."""
     peers.use(chosen)
     return attempted(name, quick, lambda line: print(f"{name}: {line}", flush=True))
+
+
+def _ready(kernel: str) -> None:
+    """A kernel of this name, compiled and kept."""
+    kernels()[kernel].ready()
 
 
 def _seconds_of(path: Path) -> dict[str, float]:
