@@ -107,7 +107,7 @@ def measured(quick: bool) -> list[Timed]:
         )
         for method, words in METHODS.items()
     ]
-    return in_turn([own, bare, *peers], rounds=5 if quick else 21, rest_s=REST)
+    return in_turn([own, bare, *peers], rounds=5 if quick else 11, rest_s=REST)
 
 
 def in_one_thread(quick: bool) -> list[Timed]:
