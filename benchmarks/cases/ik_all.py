@@ -89,7 +89,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                 max(one.position, one.rotation), 1e-10, "m and rad",
             ),
         ]  # fmt: skip
-    figures += _complete(calibrated_ur10e(), SEARCHED // 4 if quick else SEARCHED)
+    figures += _complete(calibrated_ur10e(), 2 * count, SEARCHED // 4 if quick else SEARCHED)
     say(CALIBRATED)
     rows = [
         (ARMS[one.name], {"search": "search alone", "closed": "closed form, tried down"}.get(how, how),
@@ -112,18 +112,20 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     )
 
 
-def _complete(chain: Chain, count: int) -> list[Figure]:
-    """What the calibrated arm's `complete` is worth, by a search from random starts."""
+def _complete(chain: Chain, count: int, searched: int) -> list[Figure]:
+    """What the calibrated arm's `complete` is worth, by a search from random starts for the first
+    of the targets.
+    """
     T = chain.fk(np.random.default_rng(SEED + 2).uniform(-np.pi, np.pi, (count, chain.dof)))
-    every = pk.ik_all(chain, T, method="auto", limits=False)
-    searched = pk.ik_all(chain, T, method="search", limits=False)
-    complete = np.asarray(every.complete)
-    lost = missed(every, searched)
-    share = float(complete.mean())
+    share = float(np.mean(pk.ik_all(chain, T, method="auto", limits=False).complete))
+    few = T[:searched]
+    every = pk.ik_all(chain, few, method="auto", limits=False)
+    lost = missed(every, pk.ik_all(chain, few, method="search", limits=False))
     return [
         Figure(
-            f"{CALIBRATED}: solutions of a search that are missing where `complete` is True", int(lost[complete].sum()),
-            0, note=f"{count} targets; {int(lost.sum())} at all targets",
+            f"{CALIBRATED}: solutions of a search that are missing where `complete` is True",
+            int(lost[np.asarray(every.complete)].sum()), 0,
+            note=f"{len(few)} targets; {int(lost.sum())} at all targets",
         ),
         Figure(
             f"{CALIBRATED}: targets of which the solutions are surely complete", 1 - share, 0.01,
