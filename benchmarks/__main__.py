@@ -1,9 +1,10 @@
 """`python -m benchmarks [--quick] [--output DIR] [--only TOPIC …] [--peers PEER …]`: measure, and
 write the report.
 
-The page is there after a quick look at the topics that open it, and is written again after each
-topic. Those that are not timed come first, side by side; of the others each has the machine for
-itself. Ctrl-C ends the measuring; the report is written with what there is.
+The kernels that this machine does not have are compiled first. The page is there after a quick look
+at the topics that open it, and is written again after each topic. Those that are not timed come
+first, side by side; of the others each has the machine for itself. Ctrl-C ends the measuring; the
+report is written with what there is.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import time
 from pathlib import Path
 
 from . import peers
-from .cases import OPENING, TOPICS, UNTIMED
+from .cases import OPENING, TOPICS
 from .page import plain_table, summary
 from .run import Run
 
@@ -51,17 +52,13 @@ def main() -> int:
         print(f"[{time.monotonic() - start:5.0f} s] {line}", flush=True)
 
     run = Run(options.output, options.only or list(TOPICS), say)
-    looks = [] if options.only or options.quick else OPENING
+    looks = () if options.only or options.quick else OPENING
     interrupted = False
     try:
-        for name in looks:
-            run.measure(name, quick=True, look=True)
-        together = [name for name in UNTIMED if name in run.names]
-        if len(together) > 1:
-            run.measure_together(together, quick=options.quick)
-        for name in run.names:
-            if name not in run.done:
-                run.measure(name, quick=options.quick)
+        if looks:
+            run.compile_kernels()
+        run.measure_all(looks, quick=True, look=True)
+        run.measure_all(run.names, quick=options.quick)
     except KeyboardInterrupt:
         interrupted = True
         run.stop()

@@ -31,6 +31,17 @@ def _picture(caption: str, width: float, height: float, draw: Callable[[Any], No
     return Picture(caption, svg.inline(svg.svg(width, height, "the report's pictures", draw, 10)))
 
 
+def _logarithmic(axis: Any) -> None:
+    """A logarithmic scale with its numbers as plain text: Matplotlib's powers of ten, which are
+    formulas, would take most of the time of a picture.
+    """
+    from matplotlib.ticker import LogFormatter
+
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+    axis.set_major_formatter(LogFormatter())
+    axis.set_minor_formatter(LogFormatter())
+
+
 def _plain(axes: Any) -> Any:
     """Axes in the house's look, with a grid behind the curves."""
     svg.plain(axes)
@@ -69,8 +80,8 @@ def lines(
         axes.set_xlabel(x_label)
         axes.set_ylabel(y_label)
         if log:
-            axes.set_xscale("log")
-            axes.set_yscale("log")
+            _logarithmic(axes.xaxis)
+            _logarithmic(axes.yaxis)
         else:
             axes.set_xticks(list(x))
         if log:
@@ -100,7 +111,7 @@ def dots(
         )
         axes.axhline(bar, color=INK, linewidth=1, linestyle="--")
         axes.annotate("bar", (1, bar), xytext=(0, 3), textcoords="offset points")
-        axes.set_yscale("log")
+        _logarithmic(axes.yaxis)
         axes.set_ylim(floor / 1.5, bar * 3)
         axes.set_xlabel(x_label)
         axes.set_ylabel(y_label)
@@ -150,7 +161,7 @@ def bars(caption: str, rows: Mapping[str, Mapping[str, float | None]], *, x_labe
             range(len(rows)), [" ".join(plain(label).split()) for label in rows], parse_math=False
         )
         axes.invert_yaxis()
-        axes.set_xscale("log")
+        _logarithmic(axes.xaxis)
         axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
         axes.set_xlim(least / 2, most * 3)
         axes.set_xlabel(x_label)
@@ -203,7 +214,9 @@ def panels(
                     markersize=5,
                 )
             axes.axhline(bar, color=PALE, linewidth=1.2)
-            axes.set(xscale="log", yscale="log", xlabel=part.x_label, ylim=(floor, top * 3))
+            _logarithmic(axes.xaxis)
+            _logarithmic(axes.yaxis)
+            axes.set(xlabel=part.x_label, ylim=(floor, top * 3))
             _plain(axes)
             if part.falling:
                 axes.invert_xaxis()

@@ -6,7 +6,7 @@ what it is there. Accuracy: 30 digits and more.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -42,10 +42,52 @@ class ScrewChanges(NamedTuple):
     home_columns: np.ndarray
 
 
+class HomeChanges(NamedTuple):
+    """Derivatives of the motion of a chain by its home pose, as in `ScrewChanges`."""
+
+    home: np.ndarray
+    home_columns: np.ndarray
+
+
+def home_changes(
+    chain: Any,
+    q: np.ndarray,
+) -> HomeChanges:
+    """Derivatives of pose and Jacobians by the home pose.
+
+    Parameters
+    ----------
+    chain : Chain
+        The chain.
+    q : (m,) array_like
+        Coordinates, rad or m.
+
+    Returns
+    -------
+    changes : HomeChanges
+        Derivatives, rounded to float64.
+    """
+    A = exact.exactly(chain.screws)
+    M = exact.exactly(chain.home)
+    turns = exact_chain.exponentials(A, exact_chain.displacements(chain, q))
+    f = exact.product(turns) @ M
+
+    def of_unit(unit: np.ndarray) -> tuple[np.ndarray, ...]:
+        e = exact.exactly(unit)
+        columns = derivative(
+            lambda t: exact_chain.columns(chain, A, turns, M @ exact.exp(e * t)),
+        )
+        twist = space_twist(lambda t: f @ exact.exp(e * t), f)
+        return exact.rounded(twist), exact.rounded(columns)
+
+    return HomeChanges(*_by_unit(of_unit))
+
+
 def screw_changes(
     chain: Any,
     q: np.ndarray,
     joint: int,
+    of_home: HomeChanges | None = None,
 ) -> ScrewChanges:
     """Derivatives of pose and Jacobians by one screw and by the home pose.
 
@@ -57,6 +99,8 @@ def screw_changes(
         Coordinates, rad or m.
     joint : int
         Number of the joint whose screw changes, from 0.
+    of_home : HomeChanges, optional
+        Derivatives by the home pose, the same for every joint; by default computed here.
 
     Returns
     -------
@@ -90,15 +134,18 @@ def screw_changes(
         return (
             exact.rounded(space_twist(lambda t: before @ turn(carried(t)) @ after, f)),
             exact.rounded(space_twist(lambda t: before @ turn(A[joint] + e * t) @ after, f)),
-            exact.rounded(space_twist(lambda t: f @ exact.exp(e * t), f)),
             exact.rounded(derivative(columns)),
-            exact.rounded(
-                derivative(lambda t: exact_chain.columns(chain, A, turns, M @ exact.exp(e * t)))
-            ),
         )
 
+    twist, components, columns = _by_unit(of_unit)
+    home = of_home or home_changes(chain, q)
+    return ScrewChanges(twist, components, home.home, columns, home.home_columns)
+
+
+def _by_unit(of_unit: Callable[[np.ndarray], tuple[np.ndarray, ...]]) -> Iterator[np.ndarray]:
+    """Each result of the six unit twists, along a last axis of six."""
     units = zip(*map(of_unit, np.eye(6)), strict=True)
-    return ScrewChanges(*(np.stack(parts, axis=-1) for parts in units))
+    return (np.stack(parts, axis=-1) for parts in units)
 
 
 def derivative(f: Curve) -> np.ndarray:

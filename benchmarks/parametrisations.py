@@ -10,7 +10,6 @@ with no formula of its own.
 from __future__ import annotations
 
 import dataclasses
-import functools
 from collections.abc import Sequence
 
 import numpy as np
@@ -35,20 +34,15 @@ UNITS = {
 class Elementary:
     """f = base prod e^{E_k x_k} tool, x_k = values_k, and + q_i where k is turned_by[i]; motions:
     names in `UNITS`.
+
+    chain: that of one joint a parameter; its coordinates are the parameters, so that it stays as
+    they change.
     """
 
     motions: tuple[str, ...]
     values: Array
     turned_by: tuple[int, ...]
-    base: Array
-    tool: Array
-
-    @functools.cached_property
-    def chain(self) -> Chain:
-        """The chain of one joint a parameter: its coordinates are the parameters."""
-        return Chain.from_space([UNITS[motion] for motion in self.motions], self.tool).rebased(
-            self.base
-        )
+    chain: Chain
 
     @property
     def lengths(self) -> Array:
@@ -96,7 +90,9 @@ def link_parameters(table: dh.Table, hayati: Sequence[int] = ()) -> Elementary:
             motions += ["Rz", "Tz", "Tx", "Rx"]
             values += [row.theta, row.d, row.a, row.alpha]
     values = np.array([*values, 0.0, 0.0])
-    return Elementary((*motions, "Ty", "Ry"), values, tuple(turned_by), table.base, table.tool)
+    motions += ["Ty", "Ry"]
+    chain = Chain.from_space([UNITS[motion] for motion in motions], table.tool)
+    return Elementary(tuple(motions), values, tuple(turned_by), chain.rebased(table.base))
 
 
 def table_with(twist: float) -> dh.Table:

@@ -9,6 +9,9 @@ import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from poekin.engine.jit import cache
+from poekin.engine.warm import kernels
+
 from . import peers
 from .cases import SECTION_OF, TOPICS, UNTIMED
 from .machine import machine
@@ -17,6 +20,10 @@ from .report import Topic
 from .workers import most_workers, workers
 
 PAGES = {"index.html": html, "report.md": markdown, "results.json": results}
+
+
+LATER = ("closed_kernels", "elimination_kernels", "ik_all_kernel", "listed_branches")
+"""Modules of kernels that only `ik_all` runs: half of the time that compiling takes."""
 
 
 class Run:
@@ -44,15 +51,39 @@ class Run:
             self.done.append(name)
         self.write()
 
-    def measure_together(self, names: Sequence[str], *, quick: bool) -> None:
+    def compile_kernels(self) -> None:
+        """Compile the kernels that the cache does not have, in a process a core: each topic would
+        wait for its own alone. Those of all solutions of a pose are left to their topic, which no
+        picture waits for.
+        """
+        if cache.usable_directory() is None:
+            return
+        self.say("kernels for this machine …")
+        with workers() as share:
+            list(share(_ready, [name for name in kernels() if not name.startswith(LATER)]))
+
+    def measure_all(self, names: Sequence[str], *, quick: bool, look: bool = False) -> None:
+        """Run the topics that are not timed side by side, and each of the others after them."""
+        together = [name for name in UNTIMED if name in names]
+        if len(together) < 2:
+            together = []
+        self.measure_together(together, quick=quick, look=look)
+        for name in names:
+            if name not in together:
+                self.measure(name, quick=quick, look=look)
+
+    def measure_together(self, names: Sequence[str], *, quick: bool, look: bool = False) -> None:
         """Run topics that are not timed, in a process a core, and write the page after each."""
-        self.say(f"{', '.join(names)} …{self._time_left(look=False)}")
+        if not names:
+            return
+        self.say(f"{', '.join(names)} …{self._time_left(look)}")
         count = len(names)
         with workers() as share:
             found = share(_apart, names, [quick] * count, [peers.chosen_names()] * count)
             for name, topic in zip(names, found, strict=True):
                 self._keep(name, topic)
-                self.done.append(name)
+                if not look:
+                    self.done.append(name)
                 self.write()
                 self.say(f"{name}: {topic.seconds:g} s")
 
@@ -120,6 +151,11 @@ def _apart(name: str, quick: bool, chosen: Sequence[str]) -> Topic:
     """A topic in a process of its own, whose lines have its name before them."""
     peers.use(chosen)
     return attempted(name, quick, lambda line: print(f"{name}: {line}", flush=True))
+
+
+def _ready(kernel: str) -> None:
+    """A kernel of this name, compiled and kept."""
+    kernels()[kernel].ready()
 
 
 def _seconds_of(path: Path) -> dict[str, float]:

@@ -11,17 +11,24 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from typing import Any
+from unittest import mock
 
 Share = Callable[..., Iterable[Any]]
 """`map`, or that of processes: share(function, *arguments) -> results, in the arguments' order."""
 MOST = 8
+THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+"""Variables that say how many threads a library of linear algebra starts."""
 
 
 @contextmanager
 def workers() -> Iterator[Share]:
-    """`map` by processes, which begins with everything at once."""
+    """`map` by processes, which begins with everything at once.
+
+    Their linear algebra has one thread: more would wait for each other on cores that are taken.
+    """
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(most_workers(), context, initializer=_end_at_once) as pool:
+    alone = mock.patch.dict(os.environ, dict.fromkeys(THREADS, "1"))
+    with alone, ProcessPoolExecutor(most_workers(), context, initializer=_end_at_once) as pool:
         try:
             yield pool.map
         except BaseException:  # Ctrl-C, too: what has not begun is not waited for

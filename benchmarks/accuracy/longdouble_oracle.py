@@ -10,6 +10,7 @@ Shapes: twists (..., 6), poses (..., 4, 4), Jacobians (..., 6, 6); all are retur
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -28,8 +29,7 @@ def hat(w: np.ndarray) -> np.ndarray:
 def exp(xi: np.ndarray) -> np.ndarray:
     """e^ξ (..., 4, 4)."""
     w, v = _halves(xi)
-    W, (A, B, C, _, _) = hat(w), _coefficients(w)
-    WW = W @ W
+    W, WW, A, B, C = _powers(w)
     T = np.zeros((*xi.shape[:-1], 4, 4), LongDouble)
     T[..., :3, :3] = np.eye(3) + A * W + B * WW
     T[..., :3, 3] = ((np.eye(3) + B * W + C * WW) @ v[..., None])[..., 0]
@@ -40,11 +40,12 @@ def exp(xi: np.ndarray) -> np.ndarray:
 def left_jacobian(xi: np.ndarray) -> np.ndarray:
     """Σ ad(ξ)^k / (k+1)!, as [P 0; Q P]: P = I + B [ω] + C [ω]², and Q its derivative along v."""
     w, v = _halves(xi)
-    W, V, (_, B, C, dB, dC) = hat(w), hat(v), _coefficients(w)
+    V = hat(v)
+    W, WW, A, B, C = _powers(w)
+    dB, dC = _slopes(w, A, B, C)
     along = np.sum(w * v, axis=-1)[..., None, None]
-    P = np.eye(3) + B * W + C * (W @ W)
-    Q = B * V + C * (W @ V + V @ W) + 2 * along * (dB * W + dC * (W @ W))
-    return _lower(P, Q)
+    Q = B * V + C * (W @ V + V @ W) + 2 * along * (dB * W + dC * WW)
+    return _lower(np.eye(3) + B * W + C * WW, Q)
 
 
 def left_jacobian_inverse(xi: np.ndarray) -> np.ndarray:
@@ -58,7 +59,10 @@ def log(T: np.ndarray) -> np.ndarray:
     """The principal logarithm (..., 6) of the polar projection of poses."""
     R = T[..., :3, :3].astype(LongDouble)
     for _ in range(4):
-        R = (R + np.swapaxes(_inverse(R), -1, -2)) / 2
+        before, R = R, (R + np.swapaxes(_inverse(R), -1, -2)) / 2
+        # A step leaves half its square: here less than 2⁻⁶⁷.
+        if np.all(np.abs(R - before) < 1e-10):
+            break
     s = (
         np.stack(
             [R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1]],
@@ -76,8 +80,9 @@ def log(T: np.ndarray) -> np.ndarray:
     w = np.where(
         (cosine > 0)[..., None], s * (angle / np.where(_norm(s) > 0, _norm(s), 1))[..., None], n
     )
-    J = left_jacobian(np.concatenate([w, np.zeros_like(w)], axis=-1))[..., :3, :3]
-    return np.concatenate([w, (_inverse(J) @ T[..., :3, 3:].astype(LongDouble))[..., 0]], axis=-1)
+    W, WW, _, B, C = _powers(w)
+    P = np.eye(3) + B * W + C * WW
+    return np.concatenate([w, (_inverse(P) @ T[..., :3, 3:].astype(LongDouble))[..., 0]], axis=-1)
 
 
 def _halves(xi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -85,19 +90,47 @@ def _halves(xi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return x[..., :3], x[..., 3:]
 
 
-def _coefficients(w: np.ndarray) -> tuple[np.ndarray, ...]:
-    """A = sin θ/θ, B = (1 - cos θ)/θ², C = (θ - sin θ)/θ³ and dB/ds, dC/ds of s = θ², shaped to
-    multiply matrices.
-    """
-    s = np.sum(w * w, axis=-1)[..., None, None]
+def _powers(w: np.ndarray) -> tuple[np.ndarray, ...]:
+    """[ω], [ω]² and what multiplies them: A = sin θ/θ, B = (1 - cos θ)/θ², C = (θ - sin θ)/θ³."""
+    W = hat(w)
+    s = np.sum(w * w, axis=-1)
+    t = np.sqrt(s)
+
+    def closed(s: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, ...]:
+        A = np.sin(t) / t
+        return A, 2 * (np.sin(t / 2) / t) ** 2, (1 - A) / s
+
+    return W, W @ W, *_chosen(s, lambda s: tuple(_series(s, f) for f in (1, 2, 3)), closed, t)
+
+
+def _slopes(w: np.ndarray, A: np.ndarray, B: np.ndarray, C: np.ndarray) -> tuple[np.ndarray, ...]:
+    """dB/ds, dC/ds of s = θ²."""
+
+    def closed(
+        s: np.ndarray, A: np.ndarray, B: np.ndarray, C: np.ndarray
+    ) -> tuple[np.ndarray, ...]:
+        return (A - 2 * B) / (2 * s), (B - 3 * C) / (2 * s)
+
+    s = np.sum(w * w, axis=-1)
+    others = (x[..., 0, 0] for x in (A, B, C))
+    return _chosen(s, lambda s: (_slope(s, 2), _slope(s, 3)), closed, *others)
+
+
+def _chosen(
+    s: np.ndarray,
+    series: Callable[[np.ndarray], tuple[np.ndarray, ...]],
+    closed: Callable[..., tuple[np.ndarray, ...]],
+    *others: np.ndarray,
+) -> tuple[np.ndarray, ...]:
+    """Series where s = θ² is small and closed forms elsewhere, shaped to multiply matrices."""
     small = s < _SERIES_BELOW
-    near, far = np.where(small, s, 0), np.where(small, 1, s)
-    t = np.sqrt(far)
-    A, B = np.sin(t) / t, 2 * (np.sin(t / 2) / t) ** 2
-    C = (1 - A) / far
-    closed = (A, B, C, (A - 2 * B) / (2 * far), (B - 3 * C) / (2 * far))
-    series = (*(_series(near, f) for f in (1, 2, 3)), _slope(near, 2), _slope(near, 3))
-    return tuple(np.where(small, a, b) for a, b in zip(series, closed, strict=True))
+    near, far = series(s[small]), closed(*(x[~small] for x in (s, *others)))
+    found = []
+    for part, rest in zip(near, far, strict=True):
+        whole = np.empty(s.shape, LongDouble)
+        whole[small], whole[~small] = part, rest
+        found.append(whole[..., None, None])
+    return tuple(found)
 
 
 def _series(s: np.ndarray, first: int) -> np.ndarray:

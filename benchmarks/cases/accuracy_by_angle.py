@@ -36,6 +36,7 @@ from .accuracy_peers import Library
 
 Cases = Mapping[str, list[Case]]
 Findings = Sequence[tuple[Library, Mapping[str, Finding]]]
+Before = Mapping[str, Mapping[str, Finding]]
 
 WORDS = (
     "The same random cases for everybody: θ from 1e-12 to π, and π − θ from 1 to 1e-15; a third of the axes along or "
@@ -61,16 +62,21 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     cases = _cases(rng, among, 1 if quick else 10, 5_000 if quick else 100_000)
     say(f"{sum(map(len, cases.values()))} exact results")
     everybody = [libraries.poekin(), *libraries.peers()]
-    _add_where_somebody_is_worst(rng, cases, everybody, 2 if quick else 25)
+    before = _add_where_somebody_is_worst(rng, cases, everybody, 2 if quick else 25)
     say(f"{sum(map(len, cases.values()))} exact results, with more where somebody is worst")
-    return report(everybody, cases, among, say)
+    return report(everybody, cases, among, say, before)
 
 
-def report(everybody: Sequence[Library], cases: Cases, among: list[Band], say) -> Topic:  # type: ignore[no-untyped-def]
-    """Judge these libraries, the first of which is poekin, on these cases."""
+def report(  # type: ignore[no-untyped-def]
+    everybody: Sequence[Library], cases: Cases, among: list[Band], say, before: Before | None = None
+) -> Topic:
+    """Judge these libraries, the first of which is poekin, on these cases, of which some are judged
+    before.
+    """
     found: list[tuple[Library, Mapping[str, Finding]]] = []
     for library in everybody:
-        findings = judged(library.name, library.functions, cases)
+        known = (before or {}).get(library.name)
+        findings = judged(library.name, library.functions, cases, known)
         found.append((library, findings))
         worst = ", ".join(
             f"{FUNCTIONS[name]} {_worst(finding)}" for name, finding in findings.items()
@@ -99,18 +105,20 @@ def _cases(rng: np.random.Generator, among: list[Band], count: int, sweep: int) 
 
 def _add_where_somebody_is_worst(
     rng: np.random.Generator, cases: Cases, everybody: Sequence[Library], count: int
-) -> None:
+) -> Before:
     """Add count twists in each band in which the worst case of some function of somebody lies, for
-    everybody.
+    everybody; what was found before that.
     """
+    before = {one.name: judged(one.name, one.functions, cases) for one in everybody}
     worst = {
         cases[name][finding.worst].band
-        for library in everybody
-        for name, finding in judged(library.name, library.functions, cases).items()
+        for findings in before.values()
+        for name, finding in findings.items()
         if finding.worst is not None
     }
     for name, more in referenced(twists(rng, sorted(worst), count)).items():
         cases[name].extend(more)
+    return before
 
 
 def _band(w: np.ndarray, among: list[Band]) -> Band:

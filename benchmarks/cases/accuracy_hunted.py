@@ -39,7 +39,7 @@ class Hunted(NamedTuple):
 
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     same, more = (
-        (Effort(500, 3), Effort(2_000, 3)) if quick else (Effort(4_000, 10), Effort(100_000, 25))
+        (Effort(500, 3), Effort(2_000, 3)) if quick else (Effort(2_000, 10), Effort(100_000, 25))
     )
     found = [hunted("poekin, longer", OWN, more), hunted("poekin", OWN, same)]
     say(_line(found[0]))

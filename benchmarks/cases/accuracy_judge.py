@@ -175,17 +175,26 @@ def of_pose(T: np.ndarray, band: Band) -> dict[str, Case]:
 
 
 def judged(
-    who: str, offered: Mapping[str, Callable[[np.ndarray], Any]], cases: Mapping[str, list[Case]]
+    who: str,
+    offered: Mapping[str, Callable[[np.ndarray], Any]],
+    cases: Mapping[str, list[Case]],
+    before: Mapping[str, Finding] | None = None,
 ) -> dict[str, Finding]:
     """A finding for each function that a library offers; an exception is a finding too, and the run
     goes on.
+
+    before: findings of the first of these cases, which go on from there.
     """
-    findings = {}
+    findings = dict(before or {})
     for name in FUNCTIONS:
-        if name in offered:
+        if name not in offered:
+            continue
+        if name not in findings:
             foreign = _foreign(name, offered[name])
-            findings[name] = foreign or _finding(who, name, offered[name], cases[name])
+            findings[name] = foreign or Finding(who, name, np.empty(0), [])
             findings[name].who = who
+        if not findings[name].not_judged:
+            _continue(findings[name], offered[name], cases[name])
     return findings
 
 
@@ -222,18 +231,16 @@ def confirmed(case: Case) -> bool:
     return judge(case.argument, case.truth)
 
 
-def _finding(
-    who: str, name: str, function: Callable[[np.ndarray], Any], cases: list[Case]
-) -> Finding:
-    finding = Finding(who, name, np.full(len(cases), math.inf), [])
-    for k, case in enumerate(cases):
-        result, fault = _called(function, case.argument, SHAPES[name])
-        finding.results.append(result)
+def _continue(finding: Finding, function: Callable[[np.ndarray], Any], cases: list[Case]) -> None:
+    """Judge the cases that a finding does not have yet."""
+    ratios = []
+    for case in cases[len(finding.results) :]:
+        result, fault = _called(function, case.argument, SHAPES[finding.function])
         if fault:
-            finding.faults[k] = fault
-        else:
-            finding.ratios[k] = ratio(case, result)
-    return finding
+            finding.faults[len(finding.results)] = fault
+        finding.results.append(result)
+        ratios.append(math.inf if fault else ratio(case, result))
+    finding.ratios = np.concatenate([finding.ratios, ratios])
 
 
 def _foreign(name: str, function: Callable[[np.ndarray], Any]) -> Finding | None:

@@ -29,7 +29,7 @@ POSITION, ROTATION = 1.0, 4.0  # bars: median in mm, root mean square in mrad
 LOSSES: tuple[LossName, ...] = ("linear", "huber", "cauchy", "tukey")
 LOSS: LossName = "cauchy"
 FOLDS = 5
-SEEDS = 10
+SEEDS = 5
 
 WORDS = (
     "114 observations of a Franka arm, camera on the hand, board that stands still, their poses unknown (P. Nadeau, "

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import warnings
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +20,7 @@ from ..report import Figure, Table, Topic, short
 
 ARMS = {"ur5": None, "panda": "panda_link8", "puma560": None, "stanford": None}
 LOSSES = ("linear", "huber", "cauchy", "tukey")
-MEASURED, OUTLIERS, FRESH, SEEDS, BAR = 60, 3, 200, 20, 1.3
+MEASURED, OUTLIERS, FRESH, SEEDS, BAR = 60, 3, 200, 10, 1.3
 SIZES = {"1 cm … 0.5 m": (0.01, 0.5), "1 … 5 cm": (0.01, 0.05), "0.1 … 0.5 m": (0.1, 0.5)}
 TURNS = (0.05, 3.0)
 
@@ -26,10 +29,10 @@ WORDS = (
     f"errors of {short(1e3 * simulated.LENGTH)} mm and {short(1e3 * simulated.ANGLE)} mrad; then {OUTLIERS} of them "
     f"(5 %), drawn at random, are shifted by 1 cm to 0.5 m in any direction and turned by {TURNS[0]:g} to {TURNS[1]:g} "
     "rad about any axis (each log-uniform). Error on fresh poses: rms over "
-    f"{FRESH} configurations of the true arm, without noise, position and rotation each, pooled over the draws; ÷ the "
-    "error of least squares from the same measurements before they were spoilt. So a robust loss also pays for the "
-    "good measurements that it trusts less, and for those that are lost. Both with covariances that are told and with "
-    "spreads that are estimated."
+    f"{FRESH} configurations of the true arm, without noise, position and rotation each, pooled over the {SEEDS} draws "
+    "of each arm, size and way; ÷ the error of least squares from the same measurements before they were spoilt. So a "
+    "robust loss also pays for the good measurements that it trusts less, and for those that are lost. Both with "
+    "covariances that are told and with spreads that are estimated."
 )
 
 
@@ -56,11 +59,10 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     found: Found = {}
     for number, (name, tip) in enumerate(ARMS.items()):
         nominal = load(name).chain(tip=tip)
-        for size, told in ((size, told) for size in SIZES for told in (True, False)):
-            for seed in range(4 if quick else SEEDS):
-                rng = np.random.default_rng([seed, number])
-                for loss, errors in draw(nominal, rng, SIZES[size], told).items():
-                    found.setdefault((name, told, size, loss), []).append(errors)
+        for told, seed in itertools.product((True, False), range(4 if quick else SEEDS)):
+            rng = np.random.default_rng([seed, number])
+            for (size, loss), errors in draw(nominal, rng, told).items():
+                found.setdefault((name, told, size, loss), []).append(errors)
         say(
             f"{name}: "
             + ", ".join(f"{loss} {short(ratio(_of(found, loss, name)))}" for loss in LOSSES)
@@ -126,16 +128,15 @@ def row(found: Found, name: str, told: bool, size: str) -> tuple[str, ...]:
 
 
 def draw(
-    nominal: Chain, rng: np.random.Generator, size: tuple[float, float], told: bool
-) -> dict[str, Errors]:
-    """One arm and its measurements, spoilt, by each loss."""
+    nominal: Chain,
+    rng: np.random.Generator,
+    told: bool,
+    sizes: Mapping[str, tuple[float, float]] = MappingProxyType(SIZES),
+) -> dict[tuple[str, str], Errors]:
+    """One arm and its measurements, spoilt by outliers of each size, by each loss."""
     true, _ = simulated.displaced(nominal, rng)
     q, fresh = nominal.random(rng, MEASURED), nominal.random(rng, FRESH)
     T = simulated.noisy(true.fk(q), simulated.white(rng, MEASURED))
-    bad = rng.choice(MEASURED, OUTLIERS, replace=False)
-    spoilt = T.copy()
-    spoilt[bad, :3, :3] = so3.exp(_away(rng, TURNS)) @ T[bad, :3, :3]
-    spoilt[bad, :3, 3] += _away(rng, size)
     C = np.diag(simulated.SPREADS**2) if told else None
 
     def calibrated(T: np.ndarray, loss: LossName) -> cal.Calibration:
@@ -143,15 +144,17 @@ def draw(
 
     clean = simulated.errors(calibrated(T, "linear").chain, true, fresh)
     found = {}
-    for loss in LOSSES:
+    spoilt = {size: _spoilt(T, rng, lengths) for size, lengths in sizes.items()}
+    for size, loss in itertools.product(sizes, LOSSES):
+        bad, measured = spoilt[size]
         with warnings.catch_warnings():  # which outliers deserve
             warnings.filterwarnings(
                 "ignore", "the Poses: the residuals are .* as large as covariance=", PoekinWarning
             )
-            result = calibrated(spoilt, loss)
+            result = calibrated(measured, loss)
         named = {outlier.row for outlier in result.outliers}
         true_ones = len(named & set(bad.tolist()))
-        found[loss] = Errors(
+        found[size, loss] = Errors(
             clean,
             simulated.errors(result.chain, true, fresh),
             true_ones,
@@ -159,6 +162,17 @@ def draw(
             result.success,
         )
     return found
+
+
+def _spoilt(
+    T: np.ndarray, rng: np.random.Generator, size: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Which of the poses are outliers, and all of them with these moved."""
+    bad = rng.choice(len(T), OUTLIERS, replace=False)
+    spoilt = T.copy()
+    spoilt[bad, :3, :3] = so3.exp(_away(rng, TURNS)) @ T[bad, :3, :3]
+    spoilt[bad, :3, 3] += _away(rng, size)
+    return bad, spoilt
 
 
 def _away(rng: np.random.Generator, size: tuple[float, float]) -> np.ndarray:

@@ -22,10 +22,10 @@ from .. import simulated
 from ..fresh import run
 from ..harness import Case, Timed, in_turn, ratio, spread
 from ..report import Figure, Table, Topic, short
+from ..workers import THREADS
 
 OBSERVATIONS, FRESH, BAR = 114, 200, 0.1
 REST = 0.06  # s: OpenBLAS's threads wait for work for 2^26 ticks, 0.03 s
-THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 METHODS = {"lm": "MINPACK's Levenberg–Marquardt", "trf": "trust region, by singular values"}
 
 WORDS = (
@@ -107,7 +107,7 @@ def measured(quick: bool) -> list[Timed]:
         )
         for method, words in METHODS.items()
     ]
-    return in_turn([own, bare, *peers], rounds=5 if quick else 21, rest_s=REST)
+    return in_turn([own, bare, *peers], rounds=5 if quick else 11, rest_s=REST)
 
 
 def in_one_thread(quick: bool) -> list[Timed]:

@@ -26,26 +26,29 @@ from ..subjects.held import (
 )
 from ..workers import workers
 
+EXAMPLES, OF_PEERS = 150, 60
+
 WORDS = (
     "Each library is a small class with those functions that it has, called as its documentation says; its order of "
     "twists and the frame of its Jacobian are declared. Cases draw angles and lengths independently, log-uniformly, "
     "with 0, the neighbourhood of π and π itself on purpose; URDFs of one to three joints are made with one thing in "
     "them that readers get wrong. Grades: exact, at most 3 × the error that float64 cannot avoid; good, at most "
     "1e-10; poor, at most 1e-6; broken: worse, NaN, an exception, another shape. Angles are in rad, lengths in "
-    "proportion to those that went in. The truth has 80 digits; what is poor or broken was shrunk, done again, and "
+    f"proportion to those that went in. poekin is tried in {EXAMPLES} examples of each law, the others in {OF_PEERS}. "
+    "The truth has 80 digits; what is poor or broken was shrunk, done again, and "
     "confirmed by mpmath's own matrix exponential before it was printed here. "
     "`python -m benchmarks.subjects 100000` looks for false findings alone, in so many examples."
 )
 
 
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
-    count = 60 if quick else 150
     libraries = [(name, kind) for name, kinds in _libraries() for kind in kinds]
     names, kinds = zip(("", subjects.Poekin), *libraries, strict=True)
     seconds = [120.0] + [60.0] * len(libraries)
+    counts = [OF_PEERS if quick else EXAMPLES] + [OF_PEERS] * len(libraries)
     # No time is measured here but that of a fault, which its process has a processor for.
     with workers() as share:
-        reports = share(held, kinds, [count] * len(kinds), seconds, names)
+        reports = share(held, kinds, counts, seconds, names)
         faults = share(caught, subjects.FAULTS)
         sound = tries(1_000 if quick else FALSE_EXAMPLES, share)
         found = [_said(report, say) for report in reports]
@@ -95,7 +98,8 @@ def _figures(
         Figure(
             "faults of libraries, re-created, that are caught", len(faults) - good, 0,
             shown=f"{good} of {len(faults)}", bar_shown="all",
-            note=f"within {BROKEN_WITHIN:g} s each; at most three numbers of the counterexample are not 0",
+            note=f"each by the law that it breaks, within {BROKEN_WITHIN:g} s; at most three numbers of the "
+            "counterexample are not 0",
         ),
         Figure(
             "false findings against subjects that compute in 60 digits", false, 0, note=f"{total} examples; "

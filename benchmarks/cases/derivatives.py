@@ -20,7 +20,7 @@ from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
 from ..derivative_errors import DerivativeErrors, derivative_errors
 from ..draw import dots
-from ..exact_derivatives import screw_changes
+from ..exact_derivatives import home_changes, screw_changes
 from ..report import Figure, Table, Topic
 
 BAR, SCREW_BAR = 1e-13, 1e-12
@@ -132,9 +132,10 @@ def screw_errors(name: str, chain: Chain) -> ScrewErrors:
     q = np.random.default_rng(0).uniform(-3, 3, chain.dof)
     motion, entries = chain.screw_derivatives(q), chain.screw_derivatives(q, wrt="components")
     columns = [chain.jacobian_screw_derivatives(q, frame) for frame in FRAME_NAMES]
+    of_home = home_changes(chain, q)
     errors = []
     for i in range(len(chain.joint_names)):
-        truth = screw_changes(chain, q, i)
+        truth = screw_changes(chain, q, i, of_home)
         off = (
             [motion.screws[:, i] - truth.twist],
             [entries.screws[:, i] - truth.components],

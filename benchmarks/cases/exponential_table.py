@@ -53,12 +53,9 @@ class Tables:
 
 def tables(chain: Chain, entries: int) -> Tables:
     """The tables of a chain of revolute joints."""
-    angles = np.linspace(0.0, 2 * math.pi, entries + 1).tolist()
-    rows = [
-        [joint(A[:3], A[3:], x, *sincos(x)) for x in angles]
-        for A in chain.screws.tolist()
-    ]  # fmt: skip
-    return Tables(entries, np.array(rows))
+    x = np.linspace(0.0, 2 * math.pi, entries + 1)
+    rows = [joint(A[:3], A[3:], x, np.sin(x), np.cos(x)) for A in chain.screws.tolist()]
+    return Tables(entries, np.stack([np.stack(np.broadcast_arrays(*T), axis=-1) for T in rows]))
 
 
 def by_sines(screws, home, table, q, out):  # type: ignore[no-untyped-def]

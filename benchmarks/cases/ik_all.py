@@ -10,13 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 import poekin as pk
+from poekin.model.chain import Chain
 
+from ..calibrated_arm import calibrated_ur10e
 from ..report import Figure, Table, Topic, short
-from .ik_all_judge import SAME, Eaik, equal, errors
-from .ik_all_time import times as measured_times
+from .ik_all_judge import CALIBRATED, SAME, Eaik, absent, equal, errors, missed
 
 ARMS = {"ur5": "UR5", "puma560": "Puma 560"}
-SEED, COUNT = 5, 1000
+SEED, COUNT, SEARCHED = 5, 500, 100
 
 
 @dataclass(frozen=True)
@@ -68,16 +69,8 @@ def judged(name: str, count: int) -> Judged:
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     count = 100 if quick else COUNT
     title = "Every solution of a pose"
-    try:
-        import eaik  # noqa: F401
-    except ImportError:
-        missing = Figure(
-            "search alone against EAIK's solution sets",
-            None,
-            note="EAIK is not installed",
-            holds=False,
-        )
-        return Topic(title, "EAIK is the judge of this topic.", figures=[missing], tables=[])
+    if (without := absent(title, "search alone against EAIK's solution sets")) is not None:
+        return without
     found = []
     for name in ARMS:
         found.append(judged(name, count))
@@ -96,7 +89,8 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                 max(one.position, one.rotation), 1e-10, "m and rad",
             ),
         ]  # fmt: skip
-    timed, tables = measured_times(quick, say)
+    figures += _complete(calibrated_ur10e(), 2 * count, SEARCHED // 4 if quick else SEARCHED)
+    say(CALIBRATED)
     rows = [
         (ARMS[one.name], {"search": "search alone", "closed": "closed form, tried down"}.get(how, how),
          one.solutions[how], 1e3 * one.seconds[how])
@@ -107,9 +101,8 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         "Targets are poses of configurations drawn evenly from one turn of every joint, without limits. Two sets are "
         f"equal where each solution of one is one of the other within {SAME:g} rad. EAIK's own time is that of its "
         "calls alone, without its least-squares answers being sorted out.",
-        figures=timed + figures,
+        figures=figures,
         tables=[
-            *tables,
             Table(
                 "Solutions found, and processor time",
                 ("arm", "how", "solutions", "ms a target"),
@@ -117,3 +110,25 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
             ),
         ],
     )
+
+
+def _complete(chain: Chain, count: int, searched: int) -> list[Figure]:
+    """What the calibrated arm's `complete` is worth, by a search from random starts for the first
+    of the targets.
+    """
+    T = chain.fk(np.random.default_rng(SEED + 2).uniform(-np.pi, np.pi, (count, chain.dof)))
+    share = float(np.mean(pk.ik_all(chain, T, method="auto", limits=False).complete))
+    few = T[:searched]
+    every = pk.ik_all(chain, few, method="auto", limits=False)
+    lost = missed(every, pk.ik_all(chain, few, method="search", limits=False))
+    return [
+        Figure(
+            f"{CALIBRATED}: solutions of a search that are missing where `complete` is True",
+            int(lost[np.asarray(every.complete)].sum()), 0,
+            note=f"{len(few)} targets; {int(lost.sum())} at all targets",
+        ),
+        Figure(
+            f"{CALIBRATED}: targets of which the solutions are surely complete", 1 - share, 0.01,
+            shown=f"{100 * share:.4g} %", bar_shown="≥ 99 %", note=f"{count} targets; method {every.method}",
+        ),
+    ]  # fmt: skip

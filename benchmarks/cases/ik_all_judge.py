@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,12 +12,25 @@ import poekin as pk
 from poekin.model.chain import Chain
 from poekin.solve.ik_all.all_solutions import AllSolutions
 
+from ..report import Figure, Topic
+
 # Two solvers' ends of one solution: poses 1e-10 off make 1e-4 rad where the arm is singular within
 # 1e-6.
 SAME = 1e-4
 # EAIK's own solutions are nearer to their target than this [m and rad], its least squares ones are
 # not.
 ITS_OWN = 1e-6
+CALIBRATED = "UR10e, calibrated"
+
+
+def absent(title: str, what: str) -> Topic | None:
+    """The page of a topic whose judge, EAIK, is not installed, so that this is not measured; None
+    where it is.
+    """
+    if importlib.util.find_spec("eaik") is not None:
+        return None
+    missing = Figure(what, None, note="EAIK is not installed", holds=False)
+    return Topic(title, "EAIK is the judge of this topic.", figures=[missing])
 
 
 def apart(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -27,7 +27,7 @@ from .inverse_kinematics_rows import Row, Solve, peer_row
 Say = Callable[[str], None]
 Line = list[str | int | float]
 
-TARGETS, LIST_TARGETS, CALLS, WITHOUT = 10_000, 5000, 2000, 5000
+TARGETS, LIST_TARGETS, CALLS, WITHOUT = 10_000, 5000, 2000, 2000
 ONE_CALL, RIGHT = 3.6, 99.0  # a ratio; percent
 
 MAIN = (("Panda", "erd:panda", "panda_hand", 99.97, 1 / 5), ("UR5", "ur5", "tool", 99.99, 1 / 4))

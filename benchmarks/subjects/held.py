@@ -56,10 +56,10 @@ def held(kind: type, examples: int, seconds: float, name: str) -> Report | str:
 
 
 def caught(letter: str) -> Caught:
-    """What finds a fault of `subjects.FAULTS`."""
+    """What the law that must find a fault of `subjects.FAULTS` finds."""
     kind, law = subjects.FAULTS[letter]
     start = time.monotonic()
-    outcome = conform(kind, examples=300, seconds=BROKEN_WITHIN - 10)[law]
+    outcome = conform(kind, law, examples=300, seconds=BROKEN_WITHIN - 10)[law]
     return Caught(letter, str(kind.__doc__), outcome, time.monotonic() - start)
 
 

@@ -290,6 +290,27 @@ def test_the_oracle_shares_no_code_with_what_is_judged():
         assert imported <= allowed, file.name
 
 
+def test_a_finding_goes_on_with_the_cases_that_it_does_not_have():
+    called = []
+
+    def exp(w):
+        called.append(w)
+        return SOUND["exp_so3"](w) * (np.nan if len(called) % 3 == 0 else 1 + 1e-15)
+
+    whole = judged("fake", {"exp_so3": exp}, CASES)["exp_so3"]
+    called.clear()
+    half = len(CASES["exp_so3"]) // 2
+    first = {"exp_so3": CASES["exp_so3"][:half]}
+    before = judged("fake", {"exp_so3": exp}, first)
+    found = judged("fake", {"exp_so3": exp}, CASES, before)["exp_so3"]
+    # the ordinary twist, and each case once
+    assert len(called) == 1 + len(CASES["exp_so3"])
+    np.testing.assert_array_equal(found.ratios, whole.ratios)
+    np.testing.assert_array_equal(found.results, whole.results)
+    assert found.faults == whole.faults
+    assert {k < half for k in found.faults} == {True, False}
+
+
 def test_more_cases_are_added_at_the_angles_where_somebody_is_worst():
     cases = {name: list(some) for name, some in CASES.items()}
     library = Library(

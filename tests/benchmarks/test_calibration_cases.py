@@ -125,11 +125,12 @@ def test_what_is_judged_is_what_can_be_seen(kind):
 
 
 def test_outliers_ruin_least_squares_and_no_robust_loss():
-    found = outliers.draw(UR5, np.random.default_rng(0), (0.1, 0.5), told=True)
-    assert outliers.ratio([found["linear"]]) > 10
+    found = outliers.draw(UR5, np.random.default_rng(0), told=True, sizes={"large": (0.1, 0.5)})
+    assert outliers.ratio([found["large", "linear"]]) > 10
     for loss in outliers.LOSSES[1:]:
-        assert outliers.ratio([found[loss]]) < 2  # one draw; the bar is for many together
-        assert (found[loss].named, found[loss].converged) == (outliers.OUTLIERS, True)
+        one = found["large", loss]
+        assert outliers.ratio([one]) < 2  # one draw; the bar is for many together
+        assert (one.named, one.converged) == (outliers.OUTLIERS, True)
 
 
 def test_the_worst_group_decides_about_outliers():

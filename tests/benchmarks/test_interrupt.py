@@ -30,6 +30,7 @@ def run(monkeypatch, tmp_path):
     topics = {"first": _Done, "second": _Interrupted, "third": _Done}
     for place in (command, measuring):
         monkeypatch.setattr(place, "TOPICS", topics)
+    monkeypatch.setattr(measuring, "kernels", dict)
     monkeypatch.setattr(command, "OPENING", ("first",))
 
     def run(*words: str) -> int:

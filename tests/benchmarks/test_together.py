@@ -37,21 +37,27 @@ class _Broken:
 @pytest.fixture
 def run(monkeypatch, tmp_path):
     topics = {"first": _Sound, "second": _Broken, "timed": _Sound}
+    shared = []
 
     def share(function, *arguments):
+        shared.append(function.__name__)
         return [
             pickle.loads(pickle.dumps(function(*each))) for each in zip(*arguments, strict=True)
         ]
 
     for place in (command, measuring):
         monkeypatch.setattr(place, "TOPICS", topics)
-        monkeypatch.setattr(place, "UNTIMED", ("second", "first"))
+    monkeypatch.setattr(measuring, "UNTIMED", ("second", "first"))
+    monkeypatch.setattr(measuring, "kernels", dict)
+    monkeypatch.setattr(command, "OPENING", ("first", "second"))
     # In this process, but each result as it comes from another one.
     monkeypatch.setattr(measuring, "workers", lambda: contextlib.nullcontext(share))
 
     def run(*words):
         monkeypatch.setattr(sys, "argv", ["benchmarks", "--output", str(tmp_path), *words])
         return command.main()
+
+    run.shared = shared  # type: ignore[attr-defined]
 
     yield run
     peers.use(["standard"])
@@ -83,6 +89,18 @@ def test_topics_side_by_side_are_all_on_the_page_and_one_that_breaks_off_ends_no
     assert first["figures"][0]["what"] == "beside SciPy"
     assert first["quick"]
     assert document["left"] == 0
+
+
+def test_a_look_is_side_by_side_too_and_is_followed_by_the_measurement(run, tmp_path, capsys):
+    assert run() == 1
+    said = capsys.readouterr().out
+    # what is looked at and what is measured, each with its lines of progress
+    assert said.count("second, first …") == 2
+    assert said.count("first: half of it") == 2
+    topics = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["topics"]
+    assert [topic["quick"] for topic in topics] == [False, False, False]
+    # kernels first: nobody waits for one in a topic
+    assert run.shared == ["_ready", "_apart", "_apart"]
 
 
 def test_the_names_of_the_chosen_peers_choose_them_again():

@@ -72,9 +72,8 @@ def exp_bound(xi: ArrayLike) -> Bound:
     angular = UNIT * (1 + mp.sqrt(2) * theta)
     if len(x) == 3:
         return Bound(angular, mp.zero)
-    t = exact.exp(x)[:3, 3]
-    slope = norm(_translation_slope(x, t))
-    return Bound(angular, UNIT * (norm(t) + norm(x[3:]) + theta * slope))
+    t, _, slope = _translation(x)
+    return Bound(angular, UNIT * (norm(t) + norm(x[3:]) + theta * norm(slope)))
 
 
 def log_bound(xi: ArrayLike) -> Bound:
@@ -103,11 +102,10 @@ def log_bound(xi: ArrayLike) -> Bound:
     angular = UNIT * (theta + mp.mpf("1.22") * kappa * min(theta, mp.one))
     if len(x) == 3:
         return Bound(angular, mp.zero)
-    J = exact.left_jacobian(x[:3])
-    t = J @ x[3:]
-    # v = J⁻¹ t with t fixed: ∂v/∂ω = -J⁻¹ ∂(J v)/∂ω.
-    slope = norm(exact.left_jacobian_inverse(x[:3]) @ _translation_slope(x, t))
-    return Bound(angular, UNIT * (norm(x[3:]) + kappa * norm(t) + theta * slope))
+    t, P, slope = _translation(x)
+    # v = P⁻¹ t with t fixed: ∂v/∂ω = -P⁻¹ ∂(P v)/∂ω.
+    across = norm(exact.inverse(P) @ slope)
+    return Bound(angular, UNIT * (norm(x[3:]) + kappa * norm(t) + theta * across))
 
 
 def ratio_exp(
@@ -281,15 +279,15 @@ def other_sign(truth: np.ndarray) -> np.ndarray:
     return np.concatenate([w, exact.left_jacobian_inverse(w) @ t])
 
 
-def _translation_slope(
-    x: np.ndarray,
-    t: np.ndarray,
-) -> np.ndarray:
-    """∂t/∂ω of exp at fixed v, from the left Jacobian: dt is the velocity v_s + ω_s × t of the
-    moving origin.
+def _translation(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The translation t = P v of exp, P, and ∂t/∂ω at fixed v.
+
+    The last comes from the left Jacobian: dt is the velocity v_s + ω_s × t of the moving origin.
     """
     J = exact.left_jacobian(x)
-    return J[3:, :3] - exact.hat(t) @ J[:3, :3]
+    P = J[:3, :3]
+    t = P @ x[3:]
+    return t, P, J[3:, :3] - exact.hat(t) @ P
 
 
 def ratio(
