@@ -75,7 +75,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                     figures.append(_figure(f"{name}, {kind}", choice))
         say(f"{name}: × {figures[-2].shown} and × {figures[-1].shown}")
     figures.append(Figure("a choice and the 100 random ones it is compared with, the slowest", slowest, unit="s",
-                          note="processor time, all threads"))  # fmt: skip
+                          note="processor time, beside other topics"))  # fmt: skip
     simulated = _simulated(*ARMS[0], repeats=5 if quick else 40, say=say)
     return Topic(
         "The configurations that see most",
