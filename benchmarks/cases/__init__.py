@@ -93,6 +93,7 @@ OPENING = (
 first.
 """
 UNTIMED = (
+    "calibration_poses",
     "calibration_coverage",
     "accuracy_hunted",
     "derivatives",

@@ -9,7 +9,7 @@ from ..report import Figure, Table, Topic
 
 
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
-    rows = worst_errors(samples=100 if quick else 1000)
+    rows = worst_errors(samples=100 if quick else 600)
     say(f"{len(rows)} rows, {sum(row.cases for row in rows)} cases")
     return Topic(
         "Accuracy of exp, log and the Jacobians of exp",

@@ -157,7 +157,7 @@ def _one_call(name: str, chain: Chain, T: np.ndarray, rounds: int, solve: Solve)
 
 def _others(name: str, chain: Chain, T: np.ndarray) -> list[Line]:
     """The peers at equal tolerance, and Pinocchio's loop as documented; slow ones on fewer targets."""
-    few, fewest = T[: max(len(T) // 5, 20)], T[: max(len(T) // 100, 5)]
+    few, fewest = T[: max(len(T) // 10, 20)], T[: max(len(T) // 100, 5)]
     ways = [
         ("Robotics Toolbox, E = 5e-19 (equal tolerance)", "robotics_toolbox", few,
          partial(peers.robotics_toolbox, chain, tol=peers.EQUAL_E)),

@@ -16,7 +16,7 @@ from poekin.testing.conform.subjects.subject import Subject
 from .. import peers, subjects
 
 BROKEN_WITHIN = 60.0
-FALSE_EXAMPLES = 3_000
+FALSE_EXAMPLES = 2_000
 
 
 class Caught(NamedTuple):

@@ -12,7 +12,7 @@ from .jit.kernel import Kernel
 def kernels() -> dict[str, Kernel]:
     """Every kernel, by its module and the name of its function."""
     found: dict[str, Kernel] = {}
-    for module in pkgutil.iter_modules(folder.__path__, f"{folder.__name__}."):
+    for module in pkgutil.walk_packages(folder.__path__, f"{folder.__name__}."):
         names = vars(importlib.import_module(module.name))
         for value in names.values():
             if isinstance(value, Kernel) and value.function.__module__ == module.name:

@@ -12,7 +12,9 @@ from poekin.engine.jit import cache
 
 def in_the_source() -> int:
     folder = Path(poekin.__file__).parent / "engine" / "kernels"
-    return sum(len(re.findall(r"(?m)^@kernel\(", file.read_text())) for file in folder.glob("*.py"))
+    return sum(
+        len(re.findall(r"(?m)^@kernel\(", file.read_text())) for file in folder.rglob("*.py")
+    )
 
 
 def test_every_kernel_is_compiled_and_kept(poekin):
