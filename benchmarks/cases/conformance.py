@@ -26,7 +26,9 @@ from ..subjects.held import (
 )
 from ..workers import workers
 
-EXAMPLES, OF_PEERS = 150, 60
+EXAMPLES = 150
+OF_PEERS = 100
+QUICK = 60
 
 WORDS = (
     "Each library is a small class with those functions that it has, called as its documentation says; its order of "
@@ -34,7 +36,7 @@ WORDS = (
     "with 0, the neighbourhood of π and π itself on purpose; URDFs of one to three joints are made with one thing in "
     "them that readers get wrong. Grades: exact, at most 3 × the error that float64 cannot avoid; good, at most "
     "1e-10; poor, at most 1e-6; broken: worse, NaN, an exception, another shape. Angles are in rad, lengths in "
-    f"proportion to those that went in. poekin is tried in {EXAMPLES} examples of each law, the others in {OF_PEERS}. "
+    "proportion to those that went in. poekin is tried in {} examples of each law, the others in {}. "
     "The truth has 80 digits; what is poor or broken was shrunk, done again, and "
     "confirmed by mpmath's own matrix exponential before it was printed here. "
     "`python -m benchmarks.subjects 100000` looks for false findings alone, in so many examples."
@@ -45,7 +47,8 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     libraries = [(name, kind) for name, kinds in _libraries() for kind in kinds]
     names, kinds = zip(("", subjects.Poekin), *libraries, strict=True)
     seconds = [120.0] + [60.0] * len(libraries)
-    counts = [OF_PEERS if quick else EXAMPLES] + [OF_PEERS] * len(libraries)
+    own, of_peers = (QUICK, QUICK) if quick else (EXAMPLES, OF_PEERS)
+    counts = [own] + [of_peers] * len(libraries)
     # No time is measured here but that of a fault, which its process has a processor for.
     with workers() as share:
         reports = share(held, kinds, counts, seconds, names)
@@ -60,7 +63,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     )
     return Topic(
         "Who holds which law",
-        WORDS,
+        WORDS.format(own, of_peers),
         _figures(found, faults, total, false, not_exact),
         _tables(found, faults),
     )
