@@ -9,6 +9,7 @@ import pytest
 
 from poekin.engine.jit import compile as engine_compile
 from poekin.engine.lanes import rows as lanes
+from poekin.engine.straight_line import arctangent
 from poekin.engine.straight_line.arctangent import atan2
 from poekin.formulas import elementary
 from poekin.formulas.ik.elimination import resultant
@@ -114,6 +115,8 @@ def test_a_formula_of_four_matrices_is_that_of_each():
 
 
 def test_angles_of_four_points_are_those_of_each():
+    engine_compile._register_functions(arctangent)
+
     def angles(y, x, out):
         lanes.rows(out)[0] = atan2(lanes.rows(y)[0], lanes.rows(x)[0])
 
