@@ -19,7 +19,7 @@ Curve = Callable[[Any], np.ndarray]
 
 
 class ScrewChanges(NamedTuple):
-    """Derivatives of the motion of a chain by one screw and by its home pose.
+    """Derivatives of the motion of a chain by one screw.
 
     Attributes
     ----------
@@ -27,26 +27,22 @@ class ScrewChanges(NamedTuple):
         The twist df f⁻¹ in the base frame per unit of η, where A_i ← Ad(e^η) A_i, rad and m.
     components : (6, 6) ndarray
         The same per unit of each component of A_i.
-    home : (6, 6) ndarray
-        The same per unit of η, where M ← M e^η.
     columns : (3, 6, m, 6) ndarray
-        Derivatives of the space, body and hybrid Jacobian by the η of the screw.
-    home_columns : (3, 6, m, 6) ndarray
-        Derivatives of the three Jacobians by the η of the home pose.
+        Derivatives of the space, body and hybrid Jacobian by η.
     """
 
     twist: np.ndarray
     components: np.ndarray
-    home: np.ndarray
     columns: np.ndarray
-    home_columns: np.ndarray
 
 
 class HomeChanges(NamedTuple):
-    """Derivatives of the motion of a chain by its home pose, as in `ScrewChanges`."""
+    """Derivatives of the motion of a chain by its home pose: twist and columns as in `ScrewChanges`,
+    by η, where M ← M e^η.
+    """
 
-    home: np.ndarray
-    home_columns: np.ndarray
+    twist: np.ndarray
+    columns: np.ndarray
 
 
 def home_changes(
@@ -87,9 +83,8 @@ def screw_changes(
     chain: Any,
     q: np.ndarray,
     joint: int,
-    of_home: HomeChanges | None = None,
 ) -> ScrewChanges:
-    """Derivatives of pose and Jacobians by one screw and by the home pose.
+    """Derivatives of pose and Jacobians by one screw.
 
     Parameters
     ----------
@@ -99,8 +94,6 @@ def screw_changes(
         Coordinates, rad or m.
     joint : int
         Number of the joint whose screw changes, from 0.
-    of_home : HomeChanges, optional
-        Derivatives by the home pose, the same for every joint; by default computed here.
 
     Returns
     -------
@@ -137,9 +130,7 @@ def screw_changes(
             exact.rounded(derivative(columns)),
         )
 
-    twist, components, columns = _by_unit(of_unit)
-    home = of_home or home_changes(chain, q)
-    return ScrewChanges(twist, components, home.home, columns, home.home_columns)
+    return ScrewChanges(*_by_unit(of_unit))
 
 
 def _by_unit(of_unit: Callable[[np.ndarray], tuple[np.ndarray, ...]]) -> Iterator[np.ndarray]:

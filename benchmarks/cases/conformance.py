@@ -36,7 +36,7 @@ WORDS = (
     "with 0, the neighbourhood of π and π itself on purpose; URDFs of one to three joints are made with one thing in "
     "them that readers get wrong. Grades: exact, at most 3 × the error that float64 cannot avoid; good, at most "
     "1e-10; poor, at most 1e-6; broken: worse, NaN, an exception, another shape. Angles are in rad, lengths in "
-    "proportion to those that went in. poekin is tried in {} examples of each law, the others in {}. "
+    "proportion to those that went in. poekin is tried in {own} examples of each law, the others in {of_peers}. "
     "The truth has 80 digits; what is poor or broken was shrunk, done again, and "
     "confirmed by mpmath's own matrix exponential before it was printed here. "
     "`python -m benchmarks.subjects 100000` looks for false findings alone, in so many examples."
@@ -63,7 +63,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     )
     return Topic(
         "Who holds which law",
-        WORDS.format(own, of_peers),
+        WORDS.format(own=own, of_peers=of_peers),
         _figures(found, faults, total, false, not_exact),
         _tables(found, faults),
     )

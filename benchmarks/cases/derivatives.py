@@ -132,16 +132,16 @@ def screw_errors(name: str, chain: Chain) -> ScrewErrors:
     q = np.random.default_rng(0).uniform(-3, 3, chain.dof)
     motion, entries = chain.screw_derivatives(q), chain.screw_derivatives(q, wrt="components")
     columns = [chain.jacobian_screw_derivatives(q, frame) for frame in FRAME_NAMES]
-    of_home = home_changes(chain, q)
+    home = home_changes(chain, q)
     errors = []
     for i in range(len(chain.joint_names)):
-        truth = screw_changes(chain, q, i, of_home)
+        truth = screw_changes(chain, q, i)
         off = (
             [motion.screws[:, i] - truth.twist],
             [entries.screws[:, i] - truth.components],
-            [motion.home - truth.home],
+            [motion.home - home.twist],
             [c.screws[:, :, i] - t for c, t in zip(columns, truth.columns, strict=True)]
-            + [c.home - t for c, t in zip(columns, truth.home_columns, strict=True)],
+            + [c.home - t for c, t in zip(columns, home.columns, strict=True)],
         )
         errors.append([max(float(np.abs(x).max()) for x in part) for part in off])
     return ScrewErrors(name, len(errors), *map(float, np.max(errors, axis=0)))

@@ -11,6 +11,7 @@ import pytest
 
 import poekin as pk
 from benchmarks.calibrated_arm import calibrated_ur10e
+from benchmarks.cases import ik_all, ik_all_judge, ik_all_time
 from benchmarks.cases.ik_all_judge import Eaik, errors, missed
 from benchmarks.cases.ik_all_time import OURS, measured
 from tests.solve.ik_all import perturbed
@@ -83,3 +84,13 @@ def test_the_calibrated_arm_is_that_of_the_readme_and_none_of_eaiks():
     assert np.abs(chain.home - other.home).max() <= 1e-6
     pytest.importorskip("eaik")
     assert not Eaik(chain).solves
+
+
+@pytest.mark.parametrize("case", [ik_all, ik_all_time])
+def test_without_eaik_the_page_says_what_is_not_measured_and_that_no_bar_holds(case, monkeypatch):
+    monkeypatch.setattr(ik_all_judge.importlib.util, "find_spec", lambda name: None)
+    topic = case.topic(True, lambda line: None)
+    (figure,) = topic.figures
+    assert figure.note == "EAIK is not installed"
+    assert "EAIK" in figure.what
+    assert not figure.holds

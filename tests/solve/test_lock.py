@@ -107,6 +107,17 @@ def test_one_arm_serves_all_values_of_what_is_locked_at_its_ends(data):
     np.testing.assert_allclose(T, left.fk(q[free]), rtol=0, atol=bound)
 
 
+def test_several_joints_at_an_end_are_taken_back_in_their_order():
+    offset = np.array([0.4, -0.9, 0.7, 0.2, -1.1, 0.6])
+    chain = pk.load("puma560").chain().replace(offset=offset)
+    q = np.array([0.8, 0.5, -0.3, 1.2, 0.9, -0.7])
+    free = np.array([False, False, True, True, False, False])
+    left = free_chain(chain, np.where(free, np.nan, 0.0))
+    T = brought_back(chain, chain.fk(q)[None], np.where(free, np.nan, q)[None], free)[0]
+    # some ten products of poses, each within a few u of the reach; another order is off by 0.1 and more
+    np.testing.assert_allclose(T, left.fk(q[free]), rtol=0, atol=1e-14)
+
+
 def test_joints_between_those_that_move_are_not_at_the_ends():
     chain = pk.load("panda").chain(tip="panda_hand")
     free = np.array([False, True, True, False, True, True, False])

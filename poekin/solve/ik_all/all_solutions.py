@@ -57,8 +57,8 @@ class AllSolutions(Result):
         Names of the coordinates that move along a continuum, by number of the target in C order.
     self_motion_directions : dict of int to (m,) ndarray
         Direction in which the continuum goes on from the solution that is listed of it, by number of
-        the row of `q`: the unit vector n of coordinates with J n = 0, which leaves the tool where it
-        is to first order (q + h n to second order of h). It may be followed either way.
+        the row of `q`: the unit vector n of coordinates with J n = 0; q + h n moves the tool by some
+        h² at most. -n leads along it the other way.
     redundant : str or None
         Name of the coordinate that was given values, of an arm with seven coordinates.
     sample : (S,) ndarray of int, or None

@@ -58,11 +58,12 @@ class ClosedForm:
 
     @property
     def none_below(self) -> float:
-        """Margin of which a target has no solution if all of its branches have less.
+        """Margin of which all branches of a target have less where it has no solution; -inf where
+        margins do not show that.
 
-        Where not the first step alone tells it, there is none such: what the later steps find out of
-        reach may be within reach of another one of infinitely many first steps. Nor is there for
-        prismatic joints, whose first step does not always say that there are.
+        They show it where the first step alone decides what is within reach: where infinitely many
+        first steps exist and one is taken, a later step may be out of reach for that one only. The
+        first step of prismatic joints does not always tell that there are infinitely many.
         """
         told = not self.arm[:6, closed_arm.SLIDES].any()
         if self.arm[closed_arm.RULE, closed_arm.FAMILY] == closed_arm.WRIST:

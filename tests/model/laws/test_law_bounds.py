@@ -148,7 +148,9 @@ def test_a_law_sees_every_number_of_every_function(law, monkeypatch):
     assert all(error <= bound for error, bound in right)
     if law == "screw_derivatives_are_differences_on_the_group":
         truth = exact_derivatives.screw_changes(COUPLED, Q[:2], 1)  # which takes long
+        home = exact_derivatives.home_changes(COUPLED, Q[:2])
         monkeypatch.setattr(exact_derivatives, "screw_changes", lambda *_: truth)
+        monkeypatch.setattr(exact_derivatives, "home_changes", lambda *_: home)
     unseen: dict[str, set[int]] = {}
     for name, (count, numbers) in sound.calls.items():
         for call in {0, 1, count - 1} & set(range(count)):
@@ -430,19 +432,19 @@ def test_halves_are_measured_apart(row, monkeypatch):
     motion, entries = PLAIN.screw_derivatives(Q), PLAIN.screw_derivatives(Q, wrt="components")
     frames = [PLAIN.jacobian_screw_derivatives(Q, frame) for frame in ("space", "body", "hybrid")]
     right = (
-        motion.screws[:, 1], entries.screws[:, 1], motion.home, np.stack([c.screws[:, :, 1] for c in frames]),
-        np.stack([c.home for c in frames]),
+        motion.screws[:, 1], entries.screws[:, 1], np.stack([c.screws[:, :, 1] for c in frames]),
+        motion.home, np.stack([c.home for c in frames]),
     )  # fmt: skip
     for k, part in enumerate(right):
         wrong = part.copy()
-        wrong[(row, 0) if k < 3 else (1, row, 0, 0)] += 1.0
+        wrong[(row, 0) if wrong.ndim == 2 else (1, row, 0, 0)] += 1.0
         parts = [*right[:k], wrong, *right[k + 1 :]]
-        truth = exact_derivatives.ScrewChanges(*parts)
-        monkeypatch.setattr(
-            exact_derivatives, "screw_changes", lambda chain, q, joint, truth=truth: truth
-        )
+        truth = exact_derivatives.ScrewChanges(*parts[:3])
+        home = exact_derivatives.HomeChanges(*parts[3:])
+        monkeypatch.setattr(exact_derivatives, "screw_changes", lambda *_, truth=truth: truth)
+        monkeypatch.setattr(exact_derivatives, "home_changes", lambda *_, home=home: home)
         pairs = measured("screw_derivatives_are_differences_on_the_group", PLAIN, monkeypatch)
-        places = [(0,), (1,), (2, 3), (6,), (7,)][k]
+        places = [(0,), (1,), (6,), (2, 3), (7,)][k]
         expected = [part * (place in places) for place in range(10) for part in halves]
         assert [e for e, _ in pairs] == pytest.approx(expected, abs=1e-6)
 

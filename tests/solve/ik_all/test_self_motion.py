@@ -70,8 +70,10 @@ def test_of_a_batch_each_continuum_has_one_and_what_stands_alone_none():
 def test_it_is_in_the_user_s_coordinates_where_these_are_no_joints():
     whole = arm("puma560")
     C = np.eye(6)
-    C[5, 3] = -1.0  # the last joint turns back with the fourth coordinate
-    C[:, 0] *= np.pi / 180
+    # the last joint turns with the fourth coordinate, which is a motor's: both coordinates go on, in
+    # another ratio than the joints
+    C[5, 3] = 1.0
+    C[:, 3] *= 0.5
     chain = whole.replace(coupling=C, limits=np.tile([-500.0, 500.0], (6, 1)), joint_limits=None)
     q = np.linalg.solve(C, STRAIGHT)
     found = pk.ik_all(chain, chain.fk(q), limits=False)
