@@ -14,7 +14,6 @@ from ...model.geometry.hp import HPForm
 _ASKED = 48
 _FOUND = 1e-6  # rad
 _OFTEN = 0.5  # of the poses asked
-_TABLES = 4
 
 
 class EliminatedRows(NamedTuple):
@@ -86,10 +85,10 @@ class Elimination:
         """Solutions of targets (N, 4, 4), by the first table, and of those that it is not sure of by
         the next ones, then by quarters of the circle; what none is sure of, by all together.
         """
-        tables = self.tables[:_TABLES]
-        found = _rows(tables[0], T)
+        first, *more = self.tables
+        found = _rows(first, T)
         others = []
-        for table in (*tables[1:], *map(_by_quarters, tables)):
+        for table in (*more, *map(_by_quarters, self.tables)):
             unsure = np.flatnonzero(~found.sure)
             if not len(unsure):
                 break

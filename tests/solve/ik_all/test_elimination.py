@@ -120,3 +120,15 @@ def test_slides_are_refused():
     screws[2] = [0, 0, 0, 0, 0, 1]
     with pytest.raises(InputError, match="revolute"):
         elimination(pk.Chain(screws, np.eye(4), frame="space"))
+
+
+def test_of_a_wrist_with_errors_hardly_a_pose_is_left_to_the_search():
+    wrist = pk.load("irb140").chain()
+    rng = np.random.default_rng(5)
+    moved = pk.se3.exp(rng.normal(scale=[np.radians(0.3)] * 3 + [1e-3] * 3, size=(6, 6)))
+    screws = (pk.se3.adjoint(moved) @ wrist.screws[:, :, None])[:, :, 0]
+    chain = pk.Chain(screws, wrist.home, frame="space")
+    q = np.random.default_rng(2).uniform(-np.pi, np.pi, (20_000, 6))
+    found = solved(chain, chain.fk(q))
+    # loops begun at four of the joints are unsure of eight, those begun at any joint of none
+    assert (~found.sure).sum() <= 3
