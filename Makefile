@@ -33,10 +33,11 @@ ifneq ($(SETUP_OF),$(CURDIR))
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help report test test-deep test-processors lint style types readable wheel-check release-check docs mutate fuzz
+.PHONY: help report test test-all test-deep test-processors lint style types readable wheel-check release-check docs mutate fuzz
 
 help:
-	@echo "make test         run all tests; ONLY=tests/groups runs those alone"
+	@echo "make test         run all tests but the slow ones (5 minutes); ONLY=tests/groups runs all of those"
+	@echo "make test-all     run all tests"
 	@echo "make test-deep    run them with twenty times as many new examples (hours); ONLY=tests/groups runs those alone"
 	@echo "make test-processors  run the numeric tests as older processors would; ONLY='nehalem haswell' takes those"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
@@ -50,14 +51,19 @@ help:
 	@echo "Each sets up $(VENV) first if need be. With another interpreter: make test PYTHON=python3.12"
 	@echo "With the lowest versions that poekin takes: make test CONSTRAINTS=constraints-lowest.txt"
 
+PYTEST = $(PY) -m pytest -n 2 --dist worksteal --durations=10
+
+# Slow are the files that tests/conftest.py lists: browsers, notebooks, processes, compilers, searches.
 test: $(VENV)/dev
-	@$(PY) -m pytest -n 2 --dist worksteal --durations=10 $(ONLY)
+	@$(PYTEST) $(or $(ONLY),-m "not slow")
+
+test-all: $(VENV)/dev
+	@$(PYTEST)
 
 # A test may take twenty times as long as in make test, where it is stopped after ten minutes.
 test-deep: $(VENV)/dev
 	@seed=$(or $(SEED),$$RANDOM$$RANDOM); echo "The same examples again: make test-deep SEED=$$seed"; \
-	HYPOTHESIS_PROFILE=deep $(PY) -m pytest -n 2 --dist worksteal --durations=10 --timeout=12000 \
-	  --hypothesis-seed=$$seed $(ONLY)
+	HYPOTHESIS_PROFILE=deep $(PYTEST) --timeout=12000 --hypothesis-seed=$$seed $(ONLY)
 
 test-processors: $(VENV)/dev
 	@$(PY) -m tools.processors $(ONLY)
@@ -73,7 +79,7 @@ style: $(VENV)/lint
 	$(PY) -m tools.check_docstrings
 
 types: $(VENV)/lint
-	$(PY) -m pyright --pythonpath $(PY)
+	$(PY) -m pyright --threads 2 --pythonpath $(PY)
 
 readable: $(VENV)/dev
 	$(PY) -m tools.readable

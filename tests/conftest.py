@@ -1,5 +1,5 @@
 """Examples of the property tests: the same everywhere in `make test`, twenty times as many new in
-`make test-deep`.
+`make test-deep`. Files that `make test` leaves to `make test-all`.
 
 `--hypothesis-seed=N` draws others in either; CONTRIBUTING.md says how to keep one that fails.
 """
@@ -27,6 +27,37 @@ KEEP = """A failing example shows a fault of the code or of the bound. Mend it a
 test as @example(...), with the values printed; where st.data() drew it, write these values into a test of their own.
 Until then @reproduce_failure(...) repeats it alone, and the next run of the deep profile tries it first."""
 
+SLOW = (
+    # browsers, notebooks, pages of the documentation, compilers
+    *("test_notebooks.py", "test_docs.py", "view/browser", "view/web", "view/test_kinematics.py"),
+    *("formats/emit_ik/test_c_ik.py", "formats/test_emit_c.py"),
+    # processes, one or many a test
+    *("cli/test_pipes.py", "cli/test_run.py", "cli/test_conform.py", "cli/test_from_ros.py"),
+    *("engine/jit/test_cache.py", "test_examples.py", "tools/test_fuzz.py", "tools/test_mutate.py"),
+    *("testing/conform/process/test_child.py", "testing/conform/test_plugin.py"),
+    *("testing/conform/test_faults.py", "testing/conform/test_libraries.py"),
+    # topics of the report, and other libraries
+    *("benchmarks/test_report.py", "benchmarks/test_accuracy_by_angle.py"),
+    *("benchmarks/test_inverse_kinematics.py", "groups/test_accuracy.py", "groups/test_objects.py"),
+    # searches, and every robot of example-robot-data
+    *("analysis/compare/test_planted.py", "analysis/compare/test_compare_extra.py"),
+    *("analysis/compare/test_compare_slides.py", "analysis/compare/test_length_unit.py"),
+    *("analysis/compare/mistakes/test_mirror.py", "analysis/compare/mistakes/test_rpy_degrees.py"),
+    *("solve/ik_structure/test_ik_structure.py", "solve/calibration/design/test_choose.py"),
+    *(
+        "solve/calibration/fit/test_initial_guess.py",
+        "solve/calibration/report/test_html_report.py",
+    ),
+    *("formats/urdf_in_place/test_in_place.py", "formats/relink/test_relinked.py"),
+    *("formats/test_urdf_text.py", "cli/formats/test_draw.py"),
+    # 60 digits at degenerate inputs
+    *("formulas/ik/test_circle_conic.py", "formulas/ik/test_two_circles.py"),
+    "formulas/ik/test_three_parallel.py",
+)
+"""Files and folders, below tests/, of more than half the time and a seventh of the tests; `make
+test-all` runs them too.
+"""
+
 settings.register_profile("quick", max_examples=100, derandomize=True, **COMMON)
 settings.register_profile("few", max_examples=20, derandomize=True, **COMMON)
 settings.register_profile("deep", max_examples=2000, **COMMON)
@@ -41,10 +72,21 @@ if providers is not None and hasattr(providers, "_get_local_constants"):
 
 
 def pytest_configure(config):
-    """Let a seed be stronger than the profile that has its own."""
+    """Name the marker of slow files; let a seed be stronger than the profile that has its own."""
+    config.addinivalue_line(
+        "markers", "slow: left to `make test-all`; see SLOW in tests/conftest.py"
+    )
     if config.getoption("--hypothesis-seed", None) is not None:
         settings.register_profile("seeded", settings(), derandomize=False)
         settings.load_profile("seeded")
+
+
+def pytest_collection_modifyitems(items):
+    """Mark the tests of slow files."""
+    for item in items:
+        below = item.nodeid.removeprefix("tests/")
+        if below.startswith(SLOW):
+            item.add_marker(pytest.mark.slow)
 
 
 def pytest_terminal_summary(terminalreporter):

@@ -9,6 +9,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.conftest import SLOW
+
 ROOT = Path(__file__).resolve().parent.parent
 PLANTED = 10**12 + 12345
 # Integers of a range without a number of Hypothesis's own list: the one in `local` is drawn where
@@ -71,3 +73,22 @@ def test_a_seed_draws_others_and_the_run_says_how_to_keep_one_that_fails(tmp_pat
     assert "test_broken" in said
     assert "@example(" in said
     assert "@reproduce_failure" in said
+
+
+def test_every_slow_file_is_there_and_a_fast_run_leaves_it_out():
+    files = {path.relative_to(ROOT / "tests").as_posix() for path in ROOT.glob("tests/**/*")}
+    assert set(SLOW) <= files
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "--collect-only",
+        "-q",
+        "-m",
+        "not slow",
+        "tests/cli",
+    ]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert "tests/cli/test_model.py" in done.stdout
+    assert "tests/cli/test_run.py" not in done.stdout
+    assert "deselected" in done.stdout

@@ -97,7 +97,7 @@ def environment(processor: Processor) -> dict[str, str]:
     }
 
 
-def run(name: str, tests: list[str]) -> bool:
+def run(name: str, tests: list[str], fast: bool = False) -> bool:
     """Run the tests as on a processor, and say which; whether they pass."""
     changed = environment(PROCESSORS[name])
     print(f"\n=== {name}: {' '.join(f'{k}={v!r}' for k, v in changed.items())}", flush=True)
@@ -113,6 +113,7 @@ def run(name: str, tests: list[str]) -> bool:
         "worksteal",
         "-p",
         "no:cacheprovider",
+        *(("-m", "not slow") if fast else ()),
         *tests,
     ]
     passed = (
@@ -135,6 +136,7 @@ def main(arguments: list[str] | None = None) -> int:
         default=list(ROOMS),
         help="files or folders in place of the numeric ones",
     )
+    parser.add_argument("--fast", action="store_true", help="leave the slow tests out")
     given = parser.parse_args(arguments)
     unknown = sorted(set(given.processors) - set(PROCESSORS))
     if unknown:
@@ -144,7 +146,7 @@ def main(arguments: list[str] | None = None) -> int:
         lacking = missing(PROCESSORS[name])
         if lacking:
             print(f"=== {name}: left out, this machine has no {', '.join(lacking)}")
-        elif not run(name, given.tests):
+        elif not run(name, given.tests, given.fast):
             failed.append(name)
     if failed:
         print(f"=== failed as: {', '.join(failed)}")

@@ -8,6 +8,7 @@ clock.
 from __future__ import annotations
 
 import importlib
+import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
@@ -146,14 +147,18 @@ def find(peers: Iterable[Peer]) -> list[Found]:
 
 
 def module(name: str) -> Any:
-    """A module by its name, without types, as few peers have any."""
-    return importlib.import_module(name)
+    """A module by its name, without types, as few peers have any, and without what its import warns
+    of: a source that is compiled for the first time may say how it is written.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return importlib.import_module(name)
 
 
 def _problem(peer: Peer) -> str:
     if peer.version == "absent":
         return "absent: not installed"
-    _, problem = attempt(lambda: importlib.import_module(peer.module))
+    _, problem = attempt(lambda: module(peer.module))
     return problem
 
 

@@ -55,6 +55,13 @@ ARMS = {
 DIGITS = {"pytorch_kinematics": 5e-6}
 
 
+def test_a_peer_whose_sources_warn_when_they_are_first_compiled_is_used(tmp_path, monkeypatch):
+    (tmp_path / "odd_escape.py").write_text("text = '\\m'\nimport warnings\nwarnings.warn('old')\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    (found,) = peers.find([Peer("odd", "numpy", "odd_escape", None, wrong)])
+    assert found.problem == ""
+
+
 @pytest.mark.parametrize("name", EVERY)
 def test_exp_and_log_of_a_peer_are_those_of_poekin_in_order_and_meaning(name):
     peer = usable(name)

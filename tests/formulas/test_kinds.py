@@ -464,7 +464,11 @@ def _name(case):
     return f"{case[0].__module__.rpartition('.')[2]}.{case[0].__name__}"
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "kind",
+    # each formula is compiled by itself there
+    [pytest.param(kind, marks=pytest.mark.slow) if kind == "compiled" else kind for kind in KINDS],
+)
 @pytest.mark.parametrize("case", CASES, ids=[f"{_name(case)}-{i}" for i, case in enumerate(CASES)])
 def test_a_formula_gives_the_same_in_every_kind(case, kind):
     formula, *arguments = case
