@@ -64,10 +64,11 @@ def test_a_processor_that_cannot_run_here_is_left_out_and_said_so(monkeypatch, c
 
 def test_one_failure_fails_the_whole_and_names_the_processor(monkeypatch, capsys):
     monkeypatch.setattr(processors, "missing", lambda processor: [])
-    monkeypatch.setattr(processors, "run", lambda name, tests: name != "haswell")
+    monkeypatch.setattr(processors, "run", lambda name, tests, fast: name != "haswell" and not fast)
     assert processors.main([]) == 1
     assert "failed as: haswell" in capsys.readouterr().out
     assert processors.main(["generic"]) == 0
+    assert processors.main(["generic", "--fast"]) == 1
 
 
 def test_an_unknown_processor_is_refused(capsys):
