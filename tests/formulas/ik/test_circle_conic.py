@@ -13,7 +13,8 @@ import pytest
 
 from poekin.formulas import elementary
 from poekin.formulas.ik import circle_conic
-from tests.formulas.ik.circle_roots import UNIT, angle, apart, attainable, both, on_circle, product
+from tests.formulas.ik.circle_roots import UNIT, angle, apart, attainable, on_circle, product
+from tests.formulas.kinds import both
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 FLOATS, COMPILED = both(circle_conic.roots)

@@ -10,8 +10,9 @@ import pytest
 
 from poekin.formulas import elementary
 from poekin.formulas.ik import three_parallel
-from tests.formulas.ik.circle_roots import UNIT, apart, both
+from tests.formulas.ik.circle_roots import UNIT, apart
 from tests.formulas.ik.moved import across, angles, floats, largest, place, rows_of, unit_vectors
+from tests.formulas.kinds import both
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 OUTER = dict(zip(("floats", "compiled"), both(three_parallel.outer), strict=True))

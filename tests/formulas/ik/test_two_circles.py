@@ -13,7 +13,8 @@ import pytest
 
 from poekin.formulas import elementary
 from poekin.formulas.ik import two_circles
-from tests.formulas.ik.circle_roots import UNIT, angle, apart, both, laurent, on_circle, product
+from tests.formulas.ik.circle_roots import UNIT, angle, apart, laurent, on_circle, product
+from tests.formulas.kinds import both
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 FLOATS, COMPILED = both(two_circles.roots)
