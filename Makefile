@@ -37,7 +37,7 @@ endif
 
 help:
 	@echo "make test         run all tests; ONLY=tests/groups runs those alone"
-	@echo "make test-deep    run them with twenty times as many new examples (hours); ONLY=tests/groups runs those alone"
+	@echo "make test-deep    run them with forty times as many new examples (hours); ONLY=tests/groups runs those alone"
 	@echo "make test-processors  run the numeric tests as older processors would; ONLY='nehalem haswell' takes those"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff), docstrings (numpydoc) and types (pyright)"
@@ -53,7 +53,7 @@ help:
 test: $(VENV)/dev
 	@$(PY) -m pytest -n 2 --dist worksteal --durations=10 $(ONLY)
 
-# A test may take twenty times as long as in make test, where it is stopped after ten minutes.
+# A test may take forty times as long as in make test, which is far less than ten minutes there.
 test-deep: $(VENV)/dev
 	@seed=$(or $(SEED),$$RANDOM$$RANDOM); echo "The same examples again: make test-deep SEED=$$seed"; \
 	HYPOTHESIS_PROFILE=deep $(PY) -m pytest -n 2 --dist worksteal --durations=10 --timeout=12000 \

@@ -1,4 +1,4 @@
-"""Examples of the property tests: the same everywhere in `make test`, twenty times as many new in
+"""Examples of the property tests: the same everywhere in `make test`, forty times as many new in
 `make test-deep`.
 
 `--hypothesis-seed=N` draws others in either; CONTRIBUTING.md says how to keep one that fails.
@@ -27,7 +27,7 @@ KEEP = """A failing example shows a fault of the code or of the bound. Mend it a
 test as @example(...), with the values printed; where st.data() drew it, write these values into a test of their own.
 Until then @reproduce_failure(...) repeats it alone, and the next run of the deep profile tries it first."""
 
-settings.register_profile("quick", max_examples=100, derandomize=True, **COMMON)
+settings.register_profile("quick", max_examples=50, derandomize=True, **COMMON)
 settings.register_profile("few", max_examples=20, derandomize=True, **COMMON)
 settings.register_profile("deep", max_examples=2000, **COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))

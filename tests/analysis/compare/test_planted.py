@@ -34,11 +34,13 @@ def test_one_difference_is_named_and_no_other_joint_is_blamed(name):
     chain = with_limits(arm(name))
     rng = np.random.default_rng(list(ARMS).index(name))
     faults = {}
-    for kind in KINDS:
+    # Three kinds in each arm, each kind in six or seven arms.
+    kinds = KINDS[list(ARMS).index(name) % 3 :: 3]
+    for kind in kinds:
         k = int(rng.choice(joints(kind, chain.dof)))
         case = plant(Case(chain, ()), kind, k, rng)
         faults[kind] = fault(compare(chain, case.chain, samples=20), case)
-    assert faults == dict.fromkeys(KINDS, "")
+    assert faults == dict.fromkeys(kinds, "")
 
 
 def two(chain, kinds, rng):
@@ -67,7 +69,6 @@ def test_of_two_differences_at_once_the_outcome_is_right_and_nine_in_ten_are_nam
     assert np.mean(named) >= 0.9
 
 
-@pytest.mark.parametrize("swapped", [False, True])
 @pytest.mark.parametrize(
     "name, frame",
     [
@@ -78,14 +79,14 @@ def test_of_two_differences_at_once_the_outcome_is_right_and_nine_in_ten_are_nam
         ("six axes anywhere on a rail", "tool"),
     ],
 )
-def test_a_longer_link_is_named_where_a_slide_that_shows_no_motion_lies_beside_it(
-    name, frame, swapped
-):
+def test_a_longer_link_is_named_where_a_slide_that_shows_no_motion_lies_beside_it(name, frame):
     chain = with_limits(ON_RAILS.get(name) or load(name).chain())
     rng = np.random.default_rng(0)
+    swapped = bool(frame)
     for k in joints("link length", chain.dof):
         if chain.kinds[k] == "prismatic":
             continue
+        swapped = not swapped  # one way round each: the next joint the other way
         case = plant(Case(chain, ()), "link length", k, rng)
         if frame:
             case = plant(case, frame, 0, rng)

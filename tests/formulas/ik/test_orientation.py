@@ -40,7 +40,7 @@ def slope(h, x):
 def test_the_angles_are_found_to_rounding_over_the_slope_and_every_row_makes_the_rotation(roots):
     rng = np.random.default_rng(51)
     with mpmath.workdps(60):
-        for _ in range(200):
+        for _ in range(100):
             h = axes(rng)
             x = rng.uniform(-np.pi, np.pi, 3)
             if rng.random() < 0.3:
