@@ -142,7 +142,7 @@ def cases(draw):
     """Conics, each with the sum of its coefficients and its points, with what rounding costs them."""
     rng = np.random.default_rng(11)
     found = []
-    for _ in range(25):
+    for _ in range(50):
         conic = tuple(map(float, draw(rng)))
         size = sum(abs(mpmath.mpf(x)) for x in conic)
         expected = [
