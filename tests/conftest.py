@@ -27,8 +27,8 @@ KEEP = """A failing example shows a fault of the code or of the bound. Mend it a
 test as @example(...), with the values printed; where st.data() drew it, write these values into a test of their own.
 Until then @reproduce_failure(...) repeats it alone, and the next run of the deep profile tries it first."""
 
-# Mutants that 100 examples of a law see, 50 see too: what is wrong is seen in most examples. Where
-# one number of many matters, as where a formula changes over, the test asks for twice as many.
+# In samples of mutants 50 examples let none through that 100 see. Where one number of many
+# matters, as where a formula changes over, the test asks for twice as many.
 settings.register_profile("quick", max_examples=50, derandomize=True, **COMMON)
 settings.register_profile("few", max_examples=20, derandomize=True, **COMMON)
 settings.register_profile("deep", max_examples=2000, **COMMON)
