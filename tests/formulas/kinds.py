@@ -50,7 +50,7 @@ def machine_code(formula):
     """Compiled as the kernels are, and kept with them: an edit of any formula compiles it anew."""
     dispatcher = numba.njit(**engine_compile.OPTIONS)(formula)
     if dispatcher is not formula:  # where Numba is switched off
-        dispatcher._cache = KernelCache(f"{formula.__module__}.{formula.__name__}")
+        dispatcher._cache = KernelCache(f"{formula.__module__}.{formula.__name__}")  # type: ignore[attr-defined]
     return dispatcher
 
 
