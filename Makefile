@@ -38,7 +38,7 @@ endif
 help:
 	@echo "make test         run all tests but the slow ones (5 minutes); ONLY=tests/groups runs all of those"
 	@echo "make test-all     run all tests"
-	@echo "make test-deep    run them with twenty times as many new examples (hours); ONLY=tests/groups runs those alone"
+	@echo "make test-deep    run them with forty times as many new examples (hours); ONLY=tests/groups runs those alone"
 	@echo "make test-processors  run the numeric tests as older processors would; ONLY='nehalem haswell' takes those"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff), docstrings (numpydoc) and types (pyright)"
@@ -60,7 +60,7 @@ test: $(VENV)/dev
 test-all: $(VENV)/dev
 	@$(PYTEST)
 
-# A test may take twenty times as long as in make test, where it is stopped after ten minutes.
+# A test may take forty times as long as in make test, which is far less than ten minutes there.
 test-deep: $(VENV)/dev
 	@seed=$(or $(SEED),$$RANDOM$$RANDOM); echo "The same examples again: make test-deep SEED=$$seed"; \
 	HYPOTHESIS_PROFILE=deep $(PYTEST) --timeout=12000 --hypothesis-seed=$$seed $(ONLY)

@@ -1,4 +1,4 @@
-"""Examples of the property tests: the same everywhere in `make test`, twenty times as many new in
+"""Examples of the property tests: the same everywhere in `make test`, forty times as many new in
 `make test-deep`. Files that `make test` leaves to `make test-all`.
 
 `--hypothesis-seed=N` draws others in either; CONTRIBUTING.md says how to keep one that fails.
@@ -58,7 +58,9 @@ SLOW = (
 test-all` runs them too.
 """
 
-settings.register_profile("quick", max_examples=100, derandomize=True, **COMMON)
+# In samples of mutants 50 examples let none through that 100 see. Where one number of many
+# matters, as where a formula changes over, the test asks for twice as many.
+settings.register_profile("quick", max_examples=50, derandomize=True, **COMMON)
 settings.register_profile("few", max_examples=20, derandomize=True, **COMMON)
 settings.register_profile("deep", max_examples=2000, **COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))

@@ -12,6 +12,7 @@ import numpy as np
 
 from poekin.engine.count import Count, counted
 from poekin.engine.jit import compile as engine_compile
+from poekin.engine.jit.cache import KernelCache
 from poekin.engine.straight_line.interpret import evaluate
 from poekin.engine.straight_line.program import Angles, program
 from poekin.engine.straight_line.trace import Graph
@@ -45,11 +46,26 @@ def floats(formula, *arguments):
     return _run(formula, _mapped(list(arguments), float))
 
 
+def machine_code(formula):
+    """Compiled as the kernels are, and kept with them: an edit of any formula compiles it anew."""
+    dispatcher = numba.njit(**engine_compile.OPTIONS)(formula)
+    if dispatcher is not formula:  # where Numba is switched off
+        dispatcher._cache = KernelCache(f"{formula.__module__}.{formula.__name__}")  # type: ignore[attr-defined]
+    return dispatcher
+
+
+def both(formula):
+    """As floats, and compiled as the kernels are: there a product and a sum may be one operation."""
+    return formula, machine_code(formula)
+
+
 def compiled(formula, *arguments):
     """Tuples stay tuples; lists, which are rows, become arrays."""
-    function = _compiled.setdefault(formula, numba.njit(**engine_compile.OPTIONS)(formula))
+    if formula not in _compiled:
+        _compiled[formula] = machine_code(formula)
     return _run(
-        function, [np.array(a, dtype=float) if isinstance(a, list) else a for a in arguments]
+        _compiled[formula],
+        [np.array(a, dtype=float) if isinstance(a, list) else a for a in arguments],
     )
 
 

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, target
+from hypothesis import given, settings, target
 from hypothesis import strategies as st
 
 from benchmarks.accuracy.worst_errors import worst_errors
@@ -21,10 +21,13 @@ from poekin.testing.oracles import exact
 from poekin.testing.strategies import group_strategies
 
 N = np.array([0.6, -0.64, 0.48])
+# Where a formula changes over, one example in a hundred may be the only one that shows it.
+MORE = settings(max_examples=2 * settings().max_examples)
 
 
 @pytest.mark.parametrize("law", ACCURACY_LAWS, ids=lambda law: law.name)
 @pytest.mark.parametrize(("module", "size"), [(so3, 3), (se3, 6)], ids=["so3", "se3"])
+@MORE
 @given(data=st.data())
 def test_the_accuracy_is_kept(module, size, law, data):
     target(

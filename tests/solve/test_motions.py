@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
@@ -350,6 +350,7 @@ FORMATS = [("12", None), ("16", None), ("7", "wxyz"), ("7", "xyzw")]
 
 
 @pytest.mark.parametrize(("format", "order"), FORMATS, ids=str)
+@settings(max_examples=max(settings().max_examples // 5, 10))
 @given(Ts=st.lists(poses(), max_size=4))
 def test_poses_go_through_a_csv_file(format, order, Ts, tmp_path_factory):
     path, T = tmp_path_factory.mktemp("csv") / "T.csv", np.array(Ts).reshape(-1, 4, 4)

@@ -34,11 +34,13 @@ def test_one_difference_is_named_and_no_other_joint_is_blamed(name):
     chain = with_limits(arm(name))
     rng = np.random.default_rng(list(ARMS).index(name))
     faults = {}
-    for kind in KINDS:
+    # Three kinds in each arm, each kind in six or seven arms.
+    kinds = KINDS[list(ARMS).index(name) % 3 :: 3]
+    for kind in kinds:
         k = int(rng.choice(joints(kind, chain.dof)))
         case = plant(Case(chain, ()), kind, k, rng)
         faults[kind] = fault(compare(chain, case.chain, samples=20), case)
-    assert faults == dict.fromkeys(KINDS, "")
+    assert faults == dict.fromkeys(kinds, "")
 
 
 def two(chain, kinds, rng):

@@ -5,17 +5,9 @@ costs an angle: oracles of the subproblems, which know no line, no conic and no 
 from __future__ import annotations
 
 import mpmath
-import numba
-
-from poekin.engine.jit import compile as engine_compile
 
 UNIT = 2.0**-53
 DIGITS = 120
-
-
-def both(formula):
-    """As floats, and compiled as the kernels are: there a product and a sum may be one operation."""
-    return formula, numba.njit(**engine_compile.OPTIONS)(formula)
 
 
 def on_circle(coefficients):

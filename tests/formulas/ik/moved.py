@@ -4,6 +4,8 @@ decompositions are held against.
 
 from __future__ import annotations
 
+import math
+
 import mpmath
 import numpy as np
 
@@ -25,6 +27,23 @@ def place(h, P, x):
         E = E * rotation(axis, angle)
         p = p + E * column(step)
     return p, E
+
+
+def jacobian(h, steps, x):
+    """Axis of each joint and how it moves the place of all, (n, 6), in floats: to say how well
+    angles are known, no digits are needed.
+    """
+    E = np.eye(3)
+    p = np.zeros(3)
+    axes, places = [], []
+    for axis, step, angle in zip(h, steps, x, strict=True):
+        k = np.asarray(axis, float)
+        axes.append(E @ k)
+        places.append(p)
+        hat = np.cross(np.eye(3), -k / np.linalg.norm(k))
+        E = E @ (np.eye(3) + math.sin(angle) * hat + (1 - math.cos(angle)) * hat @ hat)
+        p = p + E @ np.asarray(step, float)
+    return np.hstack([axes, np.cross(axes, p - places)])
 
 
 def column(v):

@@ -4,7 +4,6 @@ roots, pairs of lines, tangents, conics of lower rank, scales.
 
 from __future__ import annotations
 
-import functools
 import math
 
 import mpmath
@@ -13,7 +12,8 @@ import pytest
 
 from poekin.formulas import elementary
 from poekin.formulas.ik import circle_conic
-from tests.formulas.ik.circle_roots import UNIT, angle, apart, attainable, both, on_circle, product
+from tests.formulas.ik.circle_roots import UNIT, angle, apart, attainable, on_circle, product
+from tests.formulas.kinds import both
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 FLOATS, COMPILED = both(circle_conic.roots)
@@ -138,7 +138,6 @@ def rows(found):
     return [(angle(found[k], found[k + 1]), found[k // 5 * 5 + 4]) for k in (0, 2, 5, 7)]
 
 
-@functools.cache
 def cases(draw):
     """Conics, each with the sum of its coefficients and its points, with what rounding costs them."""
     rng = np.random.default_rng(11)
@@ -153,18 +152,20 @@ def cases(draw):
     return found
 
 
-@pytest.mark.parametrize("roots", (FLOATS, COMPILED), ids=("floats", "compiled"))
 @pytest.mark.parametrize("draw", DRAWS, ids=lambda draw: draw.__name__)
-def test_no_point_is_lost_and_each_right_to_4_times_what_rounding_costs(draw, roots):
+def test_no_point_is_lost_and_each_right_to_4_times_what_rounding_costs(draw):
     with mpmath.workdps(120):
         for conic, size, expected in cases(draw):
-            found = rows(roots(*conic))
-            for theta, cost in expected:
-                assert min(apart(x, theta) for x, margin in found if margin >= 0.0) <= 4 * cost
-            for theta, margin in found:
-                if margin >= 0.0:
-                    # accepted up to 4 u, of a left side that is right to 2 u
-                    assert abs(derivatives(conic, theta)[0]) <= 6 * UNIT * size
+            for roots in (FLOATS, COMPILED):
+                found = rows(roots(*conic))
+                for theta, cost in expected:
+                    errors = [apart(x, theta) for x, margin in found if margin >= 0.0]
+                    assert min(errors) <= 4 * cost, (roots, conic)
+                for theta, margin in found:
+                    if margin >= 0.0:
+                        # accepted up to 4 u, of a left side that is right to 2 u
+                        left = abs(derivatives(conic, theta)[0])
+                        assert left <= 6 * UNIT * size, (roots, conic)
 
 
 def test_a_double_point_has_a_margin_of_0_or_parts_by_the_root_of_rounding():

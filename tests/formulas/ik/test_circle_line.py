@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from poekin.formulas import elementary
 from poekin.formulas.ik import circle_line
-from tests.formulas.ik.circle_roots import UNIT, angle, apart, attainable, both, laurent, on_circle
+from tests.formulas.ik.circle_roots import UNIT, angle, apart, attainable, laurent, on_circle
+from tests.formulas.kinds import both
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 FLOATS, COMPILED = both(circle_line.roots)

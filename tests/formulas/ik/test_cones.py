@@ -13,7 +13,8 @@ import pytest
 
 from poekin.formulas import elementary
 from poekin.formulas.ik import cones
-from tests.formulas.ik.circle_roots import UNIT, angle, apart, both, laurent, on_circle
+from tests.formulas.ik.circle_roots import UNIT, angle, apart, laurent, on_circle
+from tests.formulas.kinds import both
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 FLOATS, COMPILED = both(cones.roots)

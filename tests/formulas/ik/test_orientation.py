@@ -10,8 +10,9 @@ import pytest
 
 from poekin.formulas import elementary
 from poekin.formulas.ik import orientation
-from tests.formulas.ik.circle_roots import UNIT, apart, both
+from tests.formulas.ik.circle_roots import UNIT, apart
 from tests.formulas.ik.moved import across, angles, floats, largest, place, rows_of, unit_vectors
+from tests.formulas.kinds import both
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 FLOATS, COMPILED = both(orientation.roots)
@@ -39,7 +40,7 @@ def slope(h, x):
 def test_the_angles_are_found_to_rounding_over_the_slope_and_every_row_makes_the_rotation(roots):
     rng = np.random.default_rng(51)
     with mpmath.workdps(60):
-        for _ in range(200):
+        for _ in range(100):
             h = axes(rng)
             x = rng.uniform(-np.pi, np.pi, 3)
             if rng.random() < 0.3:

@@ -10,8 +10,9 @@ import pytest
 
 from poekin.formulas import elementary
 from poekin.formulas.ik import position
-from tests.formulas.ik.circle_roots import UNIT, apart, both
-from tests.formulas.ik.moved import angles, floats, largest, place, rows_of, unit_vectors
+from tests.formulas.ik.circle_roots import UNIT, apart
+from tests.formulas.ik.moved import angles, floats, jacobian, largest, place, rows_of, unit_vectors
+from tests.formulas.kinds import both
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 FLOATS, COMPILED = both(position.roots)
@@ -48,12 +49,7 @@ DRAWS = (any_arm, puma, without_offset, nearly_parallel)
 
 def smallest_slope(h, P, x):
     """Smallest singular value of the place's Jacobian."""
-    base, links = place(h, [ZERO, *P], x)[0], []
-    for i in range(3):
-        p, E = place(h[:i], [ZERO, *P[:i]], x[:i])
-        axis = E * mpmath.matrix([float(v) for v in h[i]])
-        links.append(np.cross(np.array(floats(axis)), np.array(floats(base - p))))
-    return np.linalg.svd(np.array(links))[1][-1]
+    return np.linalg.svd(jacobian(h, P, x)[:, 3:])[1][-1]
 
 
 @pytest.mark.parametrize("roots", (FLOATS, COMPILED), ids=("floats", "compiled"))

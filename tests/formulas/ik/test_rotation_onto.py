@@ -11,7 +11,8 @@ from scipy.linalg import expm
 
 from poekin.formulas import elementary
 from poekin.formulas.ik.rotation_onto import rotated, rotation_onto
-from tests.formulas.ik.circle_roots import UNIT, angle, apart, both
+from tests.formulas.ik.circle_roots import UNIT, angle, apart
+from tests.formulas.kinds import both
 from tests.formulas.matrices import hat
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)

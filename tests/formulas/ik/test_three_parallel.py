@@ -10,8 +10,18 @@ import pytest
 
 from poekin.formulas import elementary
 from poekin.formulas.ik import three_parallel
-from tests.formulas.ik.circle_roots import UNIT, apart, both
-from tests.formulas.ik.moved import across, angles, floats, largest, place, rows_of, unit_vectors
+from tests.formulas.ik.circle_roots import UNIT, apart
+from tests.formulas.ik.moved import (
+    across,
+    angles,
+    floats,
+    jacobian,
+    largest,
+    place,
+    rows_of,
+    unit_vectors,
+)
+from tests.formulas.kinds import both
 
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 OUTER = dict(zip(("floats", "compiled"), both(three_parallel.outer), strict=True))
@@ -42,18 +52,11 @@ def solved(kind, h, P, R, p):
 
 def pose(h, P, x):
     """Place of the sixth axis less P_0, and E_6."""
-    p, _ = place(h[:5], [ZERO, *P[1:6]], x[:5])
-    return p, place(h, [ZERO] * 7, x)[1]
+    return place(h, [ZERO, *P[1:6], ZERO], x)
 
 
 def smallest_slope(h, P, x):
-    p = pose(h, P, x)[0]
-    columns = []
-    for i in range(6):
-        at, E = place(h[:i], [ZERO, *P[1 : i + 1]], x[:i])
-        axis = np.array(floats(E * mpmath.matrix([float(v) for v in h[i]])))
-        columns.append([*axis, *np.cross(axis, np.array(floats(p - at)))])
-    return np.linalg.svd(np.array(columns))[1][-1]
+    return np.linalg.svd(jacobian(h, [*P[1:6], ZERO], x))[1][-1]
 
 
 @pytest.mark.parametrize("kind", OUTER)

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 
 import mpmath
-import numba
 import numpy as np
 import pytest
 
-from poekin.engine.jit import compile as engine_compile
 from poekin.formulas import elementary
 from poekin.formulas.lie.arctangent import angle
+from tests.formulas.kinds import both
 
 UNIT = 2.0**-53
 SWITCHES = (0.5, 2.0)  # of y / x
@@ -20,11 +19,6 @@ TANGENTS = [
     *10.0 ** np.arange(-150.0, 151.0, 10.0),
     *(math.nextafter(s, end) for s in SWITCHES for end in (0.0, s, 9.0)),
 ]
-
-
-def both(formula):
-    """As floats, and compiled as the kernels are: there a product and a sum may be one operation."""
-    return formula, numba.njit(**engine_compile.OPTIONS)(formula)
 
 
 @pytest.fixture(params=both(angle), ids=["floats", "compiled"])

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-import numba
 import numpy as np
 import pytest
 
-from poekin.engine.jit import compile as engine_compile
 from poekin.formulas.lie.compensated import quotient_rest, square_rest, sum_rest, upper
+from tests.formulas.kinds import both
 
 rng = np.random.default_rng(7)
 SIZES = 10.0 ** rng.integers(-100, 100, 40)
@@ -19,11 +18,6 @@ VECTORS = [
     tuple(map(float, v))
     for v in rng.normal(size=(40, 3)) * 10.0 ** rng.integers(-8, 1, (40, 3)) * SIZES[:, None]
 ]
-
-
-def both(formula):
-    """As floats, and compiled as the kernels are: there a product and a sum may be one operation."""
-    return formula, numba.njit(**engine_compile.OPTIONS)(formula)
 
 
 def right(got, exact, scale):

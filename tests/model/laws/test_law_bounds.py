@@ -154,7 +154,9 @@ def test_a_law_sees_every_number_of_every_function(law, monkeypatch):
     unseen: dict[str, set[int]] = {}
     for name, (count, numbers) in sound.calls.items():
         for call in {0, 1, count - 1} & set(range(count)):
-            for place in range(0, numbers, 1 if numbers < 60 else 7):
+            # Every number at the first call; at others, where the same is called again, some.
+            step = 3 if call else 1
+            for place in range(0, numbers, step if numbers < 60 else 7):
                 pairs = measured(law, Spoilt(COUPLED, name, call, place), monkeypatch)
                 if (
                     max(

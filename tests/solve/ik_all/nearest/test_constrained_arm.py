@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
@@ -24,6 +24,7 @@ def holds(arm: ConstrainedArm) -> bool:
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=str)
+@settings(max_examples=max(settings().max_examples // 5, 10))
 @given(seed=st.integers(0, 1000), size=st.floats(0, 0.1))
 def test_motions_keep_the_family_to_the_last_bit(family, seed, size):
     arm = rounded_arm(perturbed(pk.load("ur5e").chain(), seed), family)

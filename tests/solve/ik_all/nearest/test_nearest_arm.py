@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
@@ -49,6 +49,7 @@ def test_it_is_nearer_than_the_rounded_arm_at_configurations_that_it_was_not_mad
     assert found.rms == pytest.approx(root_mean_square(chain, found.chain, Q), rel=0.05)
 
 
+@settings(max_examples=max(settings().max_examples // 5, 10))
 @given(
     seed=st.integers(0, 100), first=st.integers(0, 3), kind=st.sampled_from(["meeting", "parallel"])
 )
@@ -77,6 +78,7 @@ def test_an_arm_of_the_family_is_its_own_nearest(name, family):
     np.testing.assert_allclose(found.chain.screws, chain.screws, atol=1e-13)
 
 
+@settings(max_examples=max(settings().max_examples // 5, 10))
 @given(R=strategies.rotation_vectors())
 def test_it_does_not_depend_on_how_the_base_frame_is_turned(R):
     chain = calibrated_ur10e()
