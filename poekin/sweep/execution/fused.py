@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING
 
 from ...analysis.dexterity.jacobian_part import generic_rank
 from ...errors import InputError
 from ...model.chain import Chain
-from ...model.kinematics.arm import compiled
-from ...model.kinematics.compiled import CompiledChain
-from ...solve.chain_cache import ChainCache
 from ..sweep import Measure
 
 if TYPE_CHECKING:
@@ -17,16 +15,13 @@ if TYPE_CHECKING:
     from ...engine.straight_line.program import Program
 
 _FULL = 6  # coordinates from which on det(J Jᵀ) is the same in every frame
-_CODES: ChainCache[ArmCode] = ChainCache()
+_KEPT = 16
 
 
+# by the chain's numbers: a worker gets a chain anew with each part
+@functools.lru_cache(_KEPT)
 def fused(chain: Chain, measure: Measure) -> ArmCode:
     """Code that gives the pose, and the measure behind it. Raises: InputError."""
-    fast = compiled(chain)
-    return _CODES.get(fast, measure) or _CODES.keep(fast, _made(fast, measure), measure)
-
-
-def _made(fast: CompiledChain[Chain], measure: Measure) -> ArmCode:
     from numba.core import config
 
     from ...engine.straight_line.arm_code import arm_code  # which imports Numba
@@ -35,10 +30,11 @@ def _made(fast: CompiledChain[Chain], measure: Measure) -> ArmCode:
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         raise InputError("sweep: runs machine code alone, and NUMBA_DISABLE_JIT is set")
 
+    fast = chain.compile()
     most = min(fast.dof, _FULL)
-    if measure == "manipulability" and generic_rank(fast.chain, "pose") < most:
+    if measure == "manipulability" and generic_rank(chain, "pose") < most:
         raise InputError(
-            f"sweep: measure 'manipulability': the tool of {fast.chain!r} moves in fewer than {most} ways at a time, "
+            f"sweep: measure 'manipulability': the tool of {chain!r} moves in fewer than {most} ways at a time, "
             "so that it is 0 everywhere"
         )
 

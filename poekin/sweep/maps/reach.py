@@ -107,5 +107,6 @@ def reach(  # noqa: PLR0913 - options by keyword
 def _around(chain: Chain, samples: Random, size: float, side: int) -> Cells:
     """Cells around the first of the samples."""
     q = samples.configurations(np.arange(min(_TRIED, samples.count)))
-    p = chain.compile().fk(q)[:, :3, 3]
+    # rounded, so that the last bit of a pose, which differs by processor, moves no corner
+    p = chain.compile().fk(q)[:, :3, 3].round(9)
     return Cells.box(p.min(axis=0) - _MORE * size, p.max(axis=0) + _MORE * size, size, side)

@@ -12,7 +12,7 @@ from ..nodes import Cloud
 from ..scene import Scene
 from .stage import make_stage
 
-_SHARE = 0.35  # of a cube's side, that a point is wide
+_SHARE = 0.2  # of a cube's side, that a point is wide
 
 
 def sweep_map_scene(found: SweepMap, robot: Robot | None = None) -> Scene:
@@ -28,7 +28,7 @@ def sweep_map_scene(found: SweepMap, robot: Robot | None = None) -> Scene:
     Returns
     -------
     scene : Scene
-        The arm in the middle of its limits, and a point in each cube that was reached, coloured by
+        The arm as a page of it opens, and a point in each cube that was reached, coloured by
         the best measure, else the share of directions, else the number of samples there.
 
     Raises
@@ -43,8 +43,7 @@ def sweep_map_scene(found: SweepMap, robot: Robot | None = None) -> Scene:
         raise InputError("view: a map out of a file does not know its arm; robot= names it")
     if not found.reached.any():
         raise InputError("view: no cube of the map was reached")
-    lower, upper = found.samples.lower, found.samples.upper
-    stage = make_stage(chain, 0.5 * (lower + upper), robot)
+    stage = make_stage(chain, None, robot)
     what, values = _values(found)
     attachment = stage.attachment("cloud", "first", f"cubes that {chain.tip} reaches, by {what}")
     points = found.cells.centres()[found.reached]
