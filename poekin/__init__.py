@@ -7,7 +7,7 @@ T_ab is the pose of frame b in frame a; twists are (omega; v), the angular part 
 
 from typing import TYPE_CHECKING
 
-from . import errors
+from . import errors, sweep
 from .analysis.axes import axes
 from .analysis.compare.compare import compare
 from .analysis.counting.count import count
@@ -73,6 +73,7 @@ __all__ = [
     "se3",
     "singularity",
     "so3",
+    "sweep",
     "to_urdf",
     "ur",
     "validate",

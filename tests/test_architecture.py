@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parent.parent
 FLOORS = {
     "errors": 0, "checks": 0, "algebra": 0, "results": 0, "version": 0, "svg": 0, "html_page": 0,
     "formulas": 1, "engine": 2, "groups": 3, "model": 4, "formats": 5,
-    "testing": 6, "analysis": 6.5, "solve": 7, "view": 8, "cli": 9,
+    "testing": 6, "analysis": 6.5, "solve": 7, "view": 8, "sweep": 8, "cli": 9,
 }  # fmt: skip
 FACE = 9  # poekin/__init__.py: the public names; only the command line may use them from inside
 

@@ -90,6 +90,7 @@ EQUATIONS: dict[str, str] = {
     "poekin.formulas.lie.exp_jacobian.left_inverse": _LEFT_INVERSE,
     "poekin.formulas.lie.coefficients": _LEFT_INVERSE,
     "poekin.formulas.kinematics.forward": _LOCAL,
+    "poekin.formulas.kinematics.gram": r"\det(J J^T) = \prod_i \sigma_i^2",
     "poekin.formulas.kinematics.columns": r"V_h = \begin{bmatrix} I & 0 \\ -[p] & I \end{bmatrix} V_s",
     "poekin.formulas.paper.direct": _COLUMN,
     "poekin.formulas.kinematics.recursive": (

@@ -32,6 +32,7 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "dexterity": ("Manipulability and singularities", ("manipulability", "manipulability_gradient", "singularity")),
     "solve": ("Inverse kinematics", ("ik", "ik_all", "ik_structure", "follow")),
     "motion": ("motion: paths and timing", ("motion",)),
+    "sweep": ("sweep: maps over many configurations", ("sweep",)),
     "poses": ("poses: formats of controllers, ROS and spreadsheets", ("poses",)),
     "calibration": ("Calibration", ("calibrate", "choose_poses", "calibration")),
     "emit": ("emit: source code of an arm", ("emit",)),

@@ -153,6 +153,18 @@ def singularity() -> Made:
     return pk.view(found), figure
 
 
+def workspace() -> Made:
+    """What a UR5e reaches, and from how many directions."""
+    chain = arm("ur5e", "tool0")
+    found = pk.sweep.reach(chain, resolution=0.1, samples=1_000_000, side=2)
+    figure = chain.plot(UR5E)
+    points = found.cells.centres()[found.reached]
+    shares = found.capability[found.reached]
+    figure.axes[0].scatter(*points.T, c=shares, s=2, cmap="viridis", alpha=0.5, linewidths=0)
+    fit(figure, points)
+    return pk.view(found), figure
+
+
 def calibration() -> Made:
     """A Panda calibrated from 60 measured poses, with what is left of their errors."""
     chain = arm("panda", "panda_hand")
@@ -204,6 +216,7 @@ EXAMPLES: dict[str, Callable[[], Made]] = {
         target,
         solutions,
         singularity,
+        workspace,
     )
 }
 """What is shown, by the name of its page."""

@@ -13,6 +13,7 @@ from .calibration import apply, calibrate
 from .kinematics import fk, follow, ik, jacobian, singularity
 from .model import takes_models
 from .models import axes, compare, count, dh, emit, info, urdf, validate, view
+from .sweep import reach, show
 
 app = typer.Typer(
     add_completion=False,
@@ -35,6 +36,14 @@ for module in COMMANDS:
         run = takes_models(run)
     settings = {"ignore_unknown_options": module in TAKE_NUMBERS}
     app.command(module.__name__.rpartition(".")[2], context_settings=settings)(run)
+
+sweeps = typer.Typer(
+    rich_markup_mode=None,
+    help="Maps over many configurations: where a tool can be.",
+)
+sweeps.command("reach")(takes_models(reach.command))
+sweeps.command("show")(show.command)
+app.add_typer(sweeps, name="sweep")
 
 
 def _version(wanted: bool) -> None:

@@ -16,6 +16,7 @@ from ..solve.calibration.calibration import Calibration
 from ..solve.ik.solution import Solution
 from ..solve.ik_all.all_solutions import AllSolutions
 from ..solve.path.path_result import PathResult
+from ..sweep.maps.sweep_map import SweepMap
 from .page import Page, page
 from .scene import Scene
 from .scenes.arm import arm_scene
@@ -24,6 +25,7 @@ from .scenes.comparison import comparison_scene
 from .scenes.path import path_scene
 from .scenes.singular import singularity_scene
 from .scenes.solutions import solutions_scene
+from .scenes.sweep_map import sweep_map_scene
 from .scenes.targets import solution_scene
 
 __all__ = ["view"]
@@ -33,13 +35,14 @@ OF_ARMS: dict[type, Callable[..., Scene]] = {
     Solution: solution_scene,
     AllSolutions: solutions_scene,
     Singularity: singularity_scene,
+    SweepMap: sweep_map_scene,
 }
 """Scenes of results about one arm, each drawn alone or in its robot."""
 
 _DEFAULTS = {"q": None, "tip": None, "meshes": True, "cloud": 0, "robot": None}
 _EXPECTED = (
-    "view: expected a Robot or a Chain, or what compare, follow, ik, ik_all, singularity or "
-    "calibrate returned"
+    "view: expected a Robot or a Chain, or what compare, follow, ik, ik_all, singularity, "
+    "calibrate or sweep.reach returned"
 )
 
 
@@ -56,9 +59,9 @@ def view(
 
     Parameters
     ----------
-    x : Robot, Chain, Comparison, PathResult, Solution, AllSolutions, Singularity or Calibration
-        What to show: a model, or a result of `compare`, `follow`, `ik`, `ik_all`, `singularity` or
-        `calibrate`.
+    x : Robot, Chain, Comparison, PathResult, Solution, AllSolutions, Singularity, Calibration or SweepMap
+        What to show: a model, or a result of `compare`, `follow`, `ik`, `ik_all`, `singularity`,
+        `calibrate` or `sweep.reach`.
     q : (m,) array_like or dict, optional
         Configuration of a model, or of model a of a comparison, when the page opens, rad or m; by
         default zero, or the middle of the limits where zero is beyond them; where an arm is
@@ -70,8 +73,8 @@ def view(
     cloud : int, default 0
         Number of random configurations of a model whose tip positions are drawn.
     robot : Robot, optional
-        Robot in which the arm of a result of `follow`, `ik`, `ik_all` or `singularity` is drawn,
-        with its meshes and other branches.
+        Robot in which the arm of a result of `follow`, `ik`, `ik_all`, `singularity` or
+        `sweep.reach` is drawn, with its meshes and other branches.
 
     Returns
     -------

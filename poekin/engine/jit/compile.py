@@ -110,7 +110,7 @@ def modules_used(module):
 
 def array_type(code: str):
     """Numba's type of one argument: "r2" reads and "w2" writes a 2-dimensional float64 array, "i1"
-    reads integers, "int" is an integer.
+    reads and "n1" writes integers, "int" is an integer.
 
     What is read may have any strides and alignment and be read-only, so no layout makes the kernel
     compile anew.
@@ -121,8 +121,9 @@ def array_type(code: str):
         return types.int64
     kind = code[0]
     dimensions = int(code[1])
-    if kind == "w":
-        return types.Array(types.float64, dimensions, "C")
+    if kind in "wn":
+        written = types.float64 if kind == "w" else types.int64
+        return types.Array(written, dimensions, "C")
     element = types.int64 if kind == "i" else types.float64
     return types.Array(element, dimensions, "A", readonly=True, aligned=False)
 
@@ -133,6 +134,7 @@ def compiled(
     returns: str = "",
     quick: bool = False,
     bare: bool = False,
+    portable: bool = False,
 ):
     """Machine code of `function` for one signature, from the cache or compiled now; see
     `engine.jit.kernel.Kernel`.
@@ -141,7 +143,8 @@ def compiled(
         return function
     for module in modules_used(sys.modules[function.__module__]):
         _register_functions(module)
-    dispatcher = numba.njit(nogil=not (quick or bare), **OPTIONS)(function)
+    options: dict = OPTIONS | {"fastmath": False} if portable else OPTIONS
+    dispatcher = numba.njit(nogil=not (quick or bare), **options)(function)
     dispatcher._cache = KernelCache(function.__name__)  # type: ignore[attr-defined]
     result = types.int64 if returns == "int" else types.void
     signature = result(*(array_type(code) for code in arguments.split()))

@@ -44,11 +44,12 @@ def share_out(
 def _pool() -> ThreadPoolExecutor:
     with _making:
         if os.getpid() not in _pools:
-            _pools[os.getpid()] = ThreadPoolExecutor(_processors(), thread_name_prefix="poekin")
+            _pools[os.getpid()] = ThreadPoolExecutor(processors(), thread_name_prefix="poekin")
         return _pools[os.getpid()]
 
 
-def _processors() -> int:
+def processors() -> int:
+    """Number of processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

@@ -97,6 +97,28 @@ def _header(arm):
     return carray(_integers(arm), 5)
 
 
+def sines_room(arm):
+    """Number of angles of an arm."""
+    return _header(arm)[0]
+
+
+def sines_of_block(arm, q, sines, cosines):
+    """Sines and cosines of the angles of a block of configurations, q (BLOCK, m)."""
+    count = _header(arm)[0]
+    angles = _header(arm)[2]
+    for k in range(BLOCK):
+        _angles(angles, q, k, sines, BLOCK, k)
+    for j in range(count):
+        _sines_cosines(sines[j], cosines[j], BLOCK)
+
+
+def run_columns(arm, sines, cosines, k, q, R_p, J):
+    """Four configurations of a block, from its k-th on: the pose's numbers R_p (12, LANES) and the
+    Jacobian's J (6 m, LANES), by code whose layout is "columns".
+    """
+    _run(_header(arm)[3], sines, cosines, BLOCK, k, q[k:], R_p, J, 0)
+
+
 def _all_moderate(sines, count):
     """Whether all angles are moderate."""
     usual = True

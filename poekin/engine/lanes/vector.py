@@ -18,7 +18,6 @@ from . import rows as lanes
 
 _COUNT = 4
 _VECTOR = ir.VectorType(ir.DoubleType(), _COUNT)
-_CONTRACT = ("contract",)  # as in all compiled code: products and sums may be fused
 
 
 class Lanes(types.Type):
@@ -108,7 +107,7 @@ def _register_binary(function, name):
     def of_vectors(typingctx, a, b):
         def generate(context, builder, signature, arguments):
             vectors = _vectors(context, builder, signature, arguments)
-            return getattr(builder, name)(*vectors, flags=_CONTRACT)
+            return getattr(builder, name)(*vectors)
 
         return _LANES(a, b), generate
 

@@ -8,7 +8,7 @@ import llvmlite
 import numpy as np
 
 from ..jit import cache
-from .machine_code import LoadedCode, object_code, processor
+from .machine_code import Layout, LoadedCode, object_code, processor
 from .program import Program
 
 
@@ -19,12 +19,9 @@ class ArmCode:
 
     __slots__ = ("_loaded", "_numbers", "address")
 
-    def __init__(self, code: bytes, angles: int, coordinates: int):
-        code_at = self._loaded = LoadedCode(code)
-        self._numbers = np.array(
-            [angles, coordinates, code_at.angles, code_at.one, code_at.four],
-            np.int64,
-        )
+    def __init__(self, code: bytes, angles: int, coordinates: int, layout: Layout = "rows"):
+        self._loaded = LoadedCode(code, layout)
+        self._numbers = np.array([angles, coordinates, *self._loaded.addresses], np.int64)
         self.address = int(self._numbers.ctypes.data)
 
 
@@ -33,15 +30,16 @@ def arm_code(
     make: Callable[[], Program],
     coordinates: int,
     pose: bool,
+    layout: Layout = "rows",
 ) -> ArmCode:
     """The machine code of the program that `make` makes. key: all that it depends on besides
     poekin's source.
     """
-    path = cache.entry("arm", (key, pose, processor(), llvmlite.__version__))
+    path = cache.entry("arm", (key, pose, layout, processor(), llvmlite.__version__))
     kept = None if path is None else cache.read(path)
     if kept is None:
         program = make()
-        kept = len(program.angles).to_bytes(8, "little") + object_code(program, pose)
+        kept = len(program.angles).to_bytes(8, "little") + object_code(program, pose, layout)
         if path is not None:
             cache.write(path, kept)
-    return ArmCode(kept[8:], int.from_bytes(kept[:8], "little"), coordinates)
+    return ArmCode(kept[8:], int.from_bytes(kept[:8], "little"), coordinates, layout)

@@ -41,6 +41,8 @@ def outputs(program: Program, sines: Array, cosines: Array, q: Array) -> Array:
             values[number] = node.first
         elif node.kind == "scaled":
             values[number] = node.first * values[node.second]
+        elif node.kind == "reciprocal":
+            values[number] = 1.0 / values[node.second]
         elif node.kind == "product":
             values[number] = values[int(node.first)] * values[node.second]
         else:

@@ -5,19 +5,23 @@ of a second where a compiler of Python would take a few. Products and sums may b
 else is reordered.
 
     angles(q, sines, stride)
-    one(sines, cosines, stride, q, width, T, J)    four(...)
+    one(sines, cosines, stride, q, width, T, J)    four(...)    columns(...)
 
 `angles` writes the angle j of one configuration to sines[stride j]: it becomes its sine there. The
 others read sine and cosine of angle j at [stride j + lane], and coordinate k at q[width lane + k]
 where joints slide; they write the pose's 16 numbers at T[16 lane], and the Jacobian's 6 m at J[6 m
 lane]. What the program does not have is not written.
+
+`columns`, which stands alone, takes four too and leaves each number with those of its like: number i
+of the pose's twelve at T[4 i + lane], of the Jacobian at J[4 i + lane]. Nothing is fused in it: it
+gives the same bits on every processor.
 """
 
 # pyright: reportCallIssue=false
 # (llvmlite's builder wraps its methods, and their signatures are lost on the way)
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from llvmlite import binding, ir
 from numba.core import codegen, config
@@ -30,7 +34,13 @@ LONGEST = 512
 """Steps and stores in a block of LLVM's, whose scheduling takes time as the square of a block's
 length.
 """
-CONTRACT = ("contract",)
+Layout = Literal["rows", "columns"]
+FUNCTIONS: dict[Layout, dict[str, int]] = {
+    "rows": {"one": 1, "four": LANES},
+    "columns": {"columns": LANES},
+}
+"""Functions of a layout of the results, and configurations that each takes."""
+_CONTRACT = ("contract",)
 _DOUBLE = ir.DoubleType()
 _INT = ir.IntType(64)
 _INDEX = ir.IntType(32)
@@ -69,13 +79,13 @@ def target_machine() -> Any:
     )
 
 
-def object_code(program: Program, pose: bool) -> bytes:
+def object_code(program: Program, pose: bool, layout: Layout = "rows") -> bytes:
     """The machine code of a program whose outputs begin with a pose or not."""
     module = ir.Module("arm")
     module.triple = binding.get_default_triple()
     _write_angles(module, program)
-    for name, lanes in (("one", 1), ("four", LANES)):
-        _Function(module, name, lanes).write(program, pose)
+    for name, lanes in FUNCTIONS[layout].items():
+        _Function(module, name, lanes, layout).write(program, pose)
     # LLVM keeps constants as long as their context: in the global one those of every arm would stay
     parsed = binding.parse_assembly(str(module), binding.create_context())
     parsed.verify()
@@ -83,19 +93,17 @@ def object_code(program: Program, pose: bool) -> bytes:
 
 
 class LoadedCode:
-    """Machine code in memory: the addresses `angles`, `one` and `four` hold as long as this object
-    lives.
+    """Machine code in memory: the addresses of `angles` and of the layout's functions hold as long
+    as this object lives.
     """
 
-    def __init__(self, code: bytes):
+    def __init__(self, code: bytes, layout: Layout = "rows"):
         target = target_machine()
         self._engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target)
         self._engine.add_object_file(binding.ObjectFileRef.from_data(code))
         self._engine.finalize_object()
-        self.angles, self.one, self.four = map(
-            self._engine.get_function_address,
-            ("angles", "one", "four"),
-        )
+        names = "angles", *FUNCTIONS[layout]
+        self.addresses = tuple(map(self._engine.get_function_address, names))
 
 
 def _write_angles(module: ir.Module, program: Program) -> None:
@@ -126,10 +134,12 @@ def _write_angles(module: ir.Module, program: Program) -> None:
 class _Function:
     """One function of the module, over `lanes` configurations side by side."""
 
-    def __init__(self, module: ir.Module, name: str, lanes: int):
+    def __init__(self, module: ir.Module, name: str, lanes: int, layout: Layout):
         self.function = ir.Function(module, SIGNATURE, name)
         self.build = ir.IRBuilder(self.function.append_basic_block())
         self.lanes = lanes
+        self.layout = layout
+        self.flags = _CONTRACT if layout == "rows" else ()
         self.length = 0
         self.type = _DOUBLE if lanes == 1 else ir.VectorType(_DOUBLE, lanes)
 
@@ -145,20 +155,27 @@ class _Function:
                 values[number] = self._constant(node.first)
             elif node.kind == "scaled":
                 factor = self._constant(node.first)
-                values[number] = build.fmul(factor, values[node.second], flags=CONTRACT)
+                values[number] = build.fmul(factor, values[node.second], flags=self.flags)
+            elif node.kind == "reciprocal":
+                values[number] = build.fdiv(self._constant(1.0), values[node.second])
             else:
                 operation = self._operation(node)
                 first = values[int(node.first)]
-                values[number] = operation(first, values[node.second], flags=CONTRACT)
+                values[number] = operation(first, values[node.second], flags=self.flags)
         outputs = [self._output(values, number, sign) for number, sign in program.outputs]
         *_, T, J = self.function.args
-        if pose:
-            R = outputs[:9]
-            p = outputs[9:12]
-            del outputs[:12]
-            last_row = map(self._constant, (0.0, 0.0, 0.0, 1.0))
-            self._store(T, [*R[:3], p[0], *R[3:6], p[1], *R[6:], p[2], *last_row])
-        self._store(J, outputs)
+        numbers = outputs[:12] if pose else []
+        entries = outputs[len(numbers) :]
+        if self.layout == "columns":
+            self._store_columns(T, numbers)
+            self._store_columns(J, entries)
+        else:
+            if pose:
+                R = numbers[:9]
+                p = numbers[9:]
+                last_row = map(self._constant, (0.0, 0.0, 0.0, 1.0))
+                self._store(T, [*R[:3], p[0], *R[3:6], p[1], *R[6:], p[2], *last_row])
+            self._store(J, entries)
         build.ret_void()
 
     def _operation(self, node: Node) -> Any:
@@ -220,6 +237,13 @@ class _Function:
             place = build.gep(q, [build.add(build.mul(width, _INT(lane)), _INT(-1 - number))])
             row = build.insert_element(row, build.load(place, align=8), _INDEX(lane))
         return row
+
+    def _store_columns(self, start, values) -> None:
+        """Each value with all its lanes, one after the other."""
+        for i, value in enumerate(values):
+            self._extend_block()
+            place = self.build.gep(start, [_INT(LANES * i)])
+            self.build.store(value, self._cast_pointer(place, self.type), align=8)
 
     def _store(self, start, values) -> None:
         """The values one after the other; of several lanes each lane's, four by four turned from

@@ -119,7 +119,7 @@ def program(graph: Graph, angles: Angles, outputs: Sequence[Traced | float]) -> 
 
 
 def _operands(node: Node) -> list[int]:
-    if node.kind == "scaled":
+    if node.kind in ("scaled", "reciprocal"):
         return [node.second]
     if node.kind in ("product", "sum"):
         return [int(node.first), node.second]
@@ -156,6 +156,7 @@ def _count(angles: Sequence[Angle], steps: Sequence[tuple[int, Node]]) -> Count:
     return Count(
         multiplications=kinds.count("scaled") + kinds.count("product") + sum(m for m, _ in costs),
         additions=kinds.count("sum") + sum(a for _, a in costs),
+        divisions=kinds.count("reciprocal"),
         sines=len(angles),
         cosines=len(angles),
     )

@@ -22,10 +22,11 @@ from ...algebra import (
     transform,
     translation,
 )
-from ...formulas.kinematics import columns, structured
+from ...formulas.kinematics import columns, gram, structured
 from .program import Angles, Program, program
 from .trace import Graph
 
+_ROWS = 6
 Pose = tuple[float, ...]
 Walk = tuple[Any, Any, Any, list[Any], list[Any]]
 
@@ -90,8 +91,9 @@ def with_frame_at(arm: Structure, k: int, h: float) -> Structure:
 
 
 def _cost(way: Program) -> int:
-    # a pair of sine and cosine takes about as long as ten products
-    return way.count.multiplications + way.count.additions + 10 * way.count.sines
+    # a pair of sine and cosine, or a division, takes about as long as ten products
+    count = way.count
+    return count.multiplications + count.additions + 10 * (count.sines + count.divisions)
 
 
 def _traced(
@@ -105,18 +107,7 @@ def _traced(
     their origins.
     """
     trace = _Trace(arm)
-    if frame is None:
-        T = trace.hybrid(outer)[0]
-        J = []
-    elif frame == "hybrid":
-        T, J = trace.hybrid(outer)
-    elif frame == "space":
-        T, J = trace.space(outer)
-    elif frame == "body":
-        T, J = trace.body(inner)
-    else:
-        J = trace.joint(int(frame), inner, outer)
-        T = trace.hybrid(outer)[0] if pose else ()
+    T, J = _pose_and_jacobian(trace, frame, pose, inner, outer)
     return program(
         trace.graph,
         trace.angles,
@@ -125,6 +116,48 @@ def _traced(
             *(x for row in J for x in row),
         ],
     )
+
+
+def manipulability_program(arm: Structure, frame: str | int) -> Program:
+    """The cheapest program of an arm's pose and det(J Jᵀ), or det(Jᵀ J) with fewer than six
+    coordinates, of the Jacobian in a frame. Outputs: the twelve numbers of the pose, the
+    determinant.
+    """
+    return min(
+        (_measured(arm, frame, *ways) for ways in product((False, True), repeat=2)),
+        key=_cost,
+    )
+
+
+def _measured(arm: Structure, frame: str | int, inner: bool, outer: bool) -> Program:
+    trace = _Trace(arm)
+    T, J = _pose_and_jacobian(trace, frame, True, inner, outer)
+    m = arm.coordinates
+    if m < _ROWS:
+        J = [list(column) for column in zip(*J, strict=True)]
+    sides = min(m, _ROWS), max(m, _ROWS)
+    G: list[list[Any]] = [[0.0] * sides[0] for _ in range(sides[0])]
+    return program(trace.graph, trace.angles, [*T, gram.determinant(J, *sides, G)])
+
+
+def _pose_and_jacobian(
+    trace: _Trace,
+    frame: str | int | None,
+    pose: bool,
+    inner: bool,
+    outer: bool,
+) -> tuple[Any, list[list[Any]]]:
+    """The pose, or nothing where it is not asked and costs more, and the Jacobian."""
+    if frame is None:
+        return trace.hybrid(outer)[0], []
+    if frame == "hybrid":
+        return trace.hybrid(outer)
+    if frame == "space":
+        return trace.space(outer)
+    if frame == "body":
+        return trace.body(inner)
+    J = trace.joint(int(frame), inner, outer)
+    return trace.hybrid(outer)[0] if pose else (), J
 
 
 class _Trace:

@@ -32,6 +32,7 @@ class Node(NamedTuple):
     - "constant": the positive number `first`
     - "scaled": the positive constant `first` times node `second`
     - "product": of nodes `first` and `second`
+    - "reciprocal": 1 over node `second`
     - "sum": node `first` plus `sign` times node `second`
     """
 
@@ -72,6 +73,10 @@ class Graph:
         """x y."""
         low, high = sorted((x.number, y.number))
         return self._node(Node("product", low, high), x.sign * y.sign)
+
+    def reciprocal(self, x: Traced) -> Traced:
+        """1 / x."""
+        return self._node(Node("reciprocal", 1.0, x.number), x.sign)
 
     def sum(self, x: Traced, y: Traced) -> Traced | float:
         """x + y."""
@@ -131,6 +136,9 @@ class Traced:
         if isinstance(other, Traced):
             return self.graph.product(self, other)
         return self.graph.scaled(self, other)
+
+    def __rtruediv__(self, other):
+        return other * self.graph.reciprocal(self)
 
     def __add__(self, other):
         if isinstance(other, Traced):

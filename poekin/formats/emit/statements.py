@@ -50,6 +50,8 @@ def statements(program: Program, literal: WriteNumber) -> Statements:
             continue
         if node.kind == "scaled":
             expression = f"{literal(node.first)} * {names[node.second]}"
+        elif node.kind == "reciprocal":
+            expression = f"{literal(1.0)} / {names[node.second]}"
         else:
             operation = "*" if node.kind == "product" else _OF_SIGN[node.sign]
             expression = f"{names[int(node.first)]} {operation} {names[node.second]}"

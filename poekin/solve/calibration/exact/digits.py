@@ -17,7 +17,7 @@ _OFF = 0.01  # of a unit of the last digit: what is nearer to it than this lies 
 _SHARE = 0.9
 
 
-class Grid(NamedTuple):
+class DecimalGrid(NamedTuple):
     """Multiples of 10^-places units: numbers printed with so many decimals.
 
     Fields: size of the unit in rad or m, its symbol, decimals.
@@ -42,23 +42,23 @@ class RotationGrid(NamedTuple):
     (rad) by which their rounding turns a frame.
     """
 
-    grid: Grid
+    grid: DecimalGrid
     what: str
     radius: float
 
 
-_DEGREE = Grid(math.radians(1.0), "°", 0)
-_RADIAN = Grid(1.0, "rad", 0)
-_MILLIMETRE = Grid(1e-3, "mm", 0)
-_PLAIN = Grid(1.0, "1", 0)
+_DEGREE = DecimalGrid(math.radians(1.0), "°", 0)
+_RADIAN = DecimalGrid(1.0, "rad", 0)
+_MILLIMETRE = DecimalGrid(1e-3, "mm", 0)
+_PLAIN = DecimalGrid(1.0, "1", 0)
 
 
-def angle_grid(values: Array) -> Grid | None:
+def angle_grid(values: Array) -> DecimalGrid | None:
     """Coarsest grid of angles, in degrees or rad, that all of them lie on."""
     return _coarsest(values, (_DEGREE, _RADIAN), 1.0)
 
 
-def length_grid(values: Array) -> Grid | None:
+def length_grid(values: Array) -> DecimalGrid | None:
     """Coarsest grid of lengths, m, in millimetres, that all of them lie on."""
     return _coarsest(values, (_MILLIMETRE,), 1.0)
 
@@ -86,9 +86,9 @@ def rotation_grid(R: Array) -> RotationGrid | None:
 
 def _coarsest(
     values: Array,
-    units: tuple[Grid, ...],
+    units: tuple[DecimalGrid, ...],
     share: float,
-) -> Grid | None:
+) -> DecimalGrid | None:
     """The grid of fewest decimals that this share of the values lies on, in one of these units."""
     for places in range(MOST + 1):
         for unit in units:

@@ -14,7 +14,7 @@ from ....model.chain import Chain
 from ....model.sampling import angle_mask
 from ..fit.losses import chi_square
 from .bounds import ROUNDING, Propagation, ReadingErrors
-from .digits import MOST, Grid, RotationGrid, angle_grid, length_grid, rotation_grid
+from .digits import MOST, DecimalGrid, RotationGrid, angle_grid, length_grid, rotation_grid
 
 TIMES = 5.0
 """Standard deviations of the residuals that no error is taken to exceed where no digits are found;
@@ -35,9 +35,9 @@ class Digits(NamedTuple):
     double are there, or none were found.
     """
 
-    angles: Grid | None
-    lengths: Grid | None
-    positions: Grid | None
+    angles: DecimalGrid | None
+    lengths: DecimalGrid | None
+    positions: DecimalGrid | None
     rotations: RotationGrid | None
 
     @property
@@ -150,7 +150,7 @@ def _refined(printed: Digits) -> Iterator[Digits]:
         )
 
 
-def _finer(grid: Grid | None, more: int) -> Grid | None:
+def _finer(grid: DecimalGrid | None, more: int) -> DecimalGrid | None:
     if grid is None or grid.places + more > MOST:
         return None
     return grid._replace(places=grid.places + more)
@@ -193,5 +193,5 @@ def _joint_errors(digits: Digits, chain: Chain) -> Array:
     return np.where(angle_mask(chain), _half(digits.angles), _half(digits.lengths))
 
 
-def _half(grid: Grid | None) -> float:
+def _half(grid: DecimalGrid | None) -> float:
     return 0.0 if grid is None else grid.half

@@ -1,0 +1,118 @@
+"""`poekin sweep reach`: a map of where a tool can be, from which directions, and how well."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+from typer import Exit, Option
+
+from ...errors import InputError
+from ...sweep.maps.reach import reach
+from .. import array_files
+from ..kinematics.arm import Base, File, Json, Seed, Tip
+from ..model import model
+from ..output import Progress, as_json, path_text, say
+
+
+class MeasureName(StrEnum):
+    """What a map keeps of each cell."""
+
+    reach = "reach"
+    manipulability = "manipulability"
+
+
+Samples = Annotated[
+    str,
+    Option("--samples", metavar="N", help="Number of configurations, as 10000000 or 1e8."),
+]
+Resolution = Annotated[float, Option("--resolution", help="Side of a cube, m.")]
+Side = Annotated[
+    int,
+    Option(
+        "--side",
+        min=0,
+        help="Tell 12 SIDE² directions of the tool's z axis apart (4: 192 of them).",
+    ),
+]
+Measured = Annotated[MeasureName, Option("--measure", help="What is kept of each cell.")]
+MapFile = Annotated[
+    Path | None,
+    Option("--output", help="Where the map goes: a .npz file, for poekin sweep show."),
+]
+StorePlace = Annotated[
+    Path | None,
+    Option("--store", help="Directory that keeps each part as soon as it is done."),
+]
+Resume = Annotated[
+    bool,
+    Option("--resume", help="Go on with what the store holds, of a run that was ended."),
+]
+Workers = Annotated[
+    int | None,
+    Option("--workers", min=1, help="Number of threads (default: one for each processor)."),
+]
+
+
+def command(
+    file: File,
+    samples: Samples = "1e7",
+    resolution: Resolution = 0.05,
+    side: Side = 0,
+    measure: Measured = MeasureName.reach,
+    seed: Seed = 0,
+    tip: Tip = None,
+    base: Base = None,
+    output: MapFile = None,
+    store: StorePlace = None,
+    resume: Resume = False,
+    workers: Workers = None,
+    json: Json = False,
+) -> None:
+    """Map of the cells that the tool of FILE reaches, from configurations drawn at random. Exit code
+    0 done, 2 error.
+    """
+    array_files.check_apart([output], model=file)
+    if output is not None and output.suffix != ".npz":
+        raise InputError(f"--output: expected a .npz file, got {path_text(output)}")
+    if resume and store is None:
+        raise InputError(
+            "--resume: expected with --store and the directory of the run to go on with"
+        )
+    chain = model(file).chain(base=base, tip=tip)
+    with Progress("sweep") as progress:
+        found = reach(
+            chain,
+            resolution=resolution,
+            samples=_count(samples),
+            side=side,
+            measure=measure.value,
+            seed=seed,
+            workers=workers,
+            store=store,
+            resume=resume,
+            progress=progress,
+        )
+    if output is not None:
+        found.save(output)
+    if json:
+        print(as_json(found.to_dict()))
+    else:
+        say(found.summary())
+        if output is not None:
+            say(f"\nthe map: {path_text(output)}")
+    raise Exit(0)
+
+
+def _count(text: str) -> int:
+    """A whole number, in digits or as 1e8. Raises: InputError."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.5
+    if not number.is_integer():
+        raise InputError(
+            f"--samples: expected a whole number, as 10000000 or 1e8, got {path_text(text)}"
+        )
+    return int(number)

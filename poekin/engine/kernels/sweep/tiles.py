@@ -1,0 +1,50 @@
+"""Tiles of the sphere of equal area, 12 n^2, n by n on each of twelve faces, and the tile of a
+direction.
+
+Source: Górski et al. 2005 (HEALPix), Section 4, with the tiles of a face numbered row by row.
+"""
+
+import math
+
+from ...straight_line.arctangent import atan2
+
+_EQUATOR = 2.0 / 3.0
+
+
+def tile(x, y, z, n):
+    """The tile of a direction: 0 ... 12 n^2 - 1."""
+    quarter = atan2(y, x) * (2.0 / math.pi)
+    if quarter < 0.0:
+        quarter += 4.0
+    if abs(z) <= _EQUATOR:
+        face, i, j = _around_equator(quarter, z, n)
+    else:
+        face, i, j = _around_pole(quarter, z, n)
+    return (face * n + i) * n + j
+
+
+def _around_equator(quarter, z, n):
+    along = n * (0.5 + quarter)
+    up = 0.75 * n * z
+    falling = int(along - up)
+    rising = int(along + up)
+    column = falling // n
+    other = rising // n
+    if column == other:
+        face = column % 4 + 4
+    elif column < other:
+        face = column
+    else:
+        face = other + 8
+    return face, rising % n, n - 1 - falling % n
+
+
+def _around_pole(quarter, z, n):
+    face = min(int(quarter), 3)
+    along = quarter - face
+    out = n * math.sqrt(3.0 * max(1.0 - abs(z), 0.0))
+    falling = min(int(along * out), n - 1)
+    rising = min(int((1.0 - along) * out), n - 1)
+    if z > 0.0:
+        return face, n - 1 - rising, n - 1 - falling
+    return face + 8, falling, rising

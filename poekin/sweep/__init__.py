@@ -1,0 +1,26 @@
+"""Maps over many configurations: where a tool can be, from which directions, and how well it moves
+there.
+"""
+
+from .cells import Cells
+from .execution.run import run
+from .maps.base_placement import BasePlacement, base_placement
+from .maps.branches import branches
+from .maps.reach import reach
+from .maps.sweep_map import SweepMap, load_map
+from .samples import Grid, Random
+from .sweep import Sweep
+
+__all__ = [
+    "BasePlacement",
+    "Cells",
+    "Grid",
+    "Random",
+    "Sweep",
+    "SweepMap",
+    "base_placement",
+    "branches",
+    "load_map",
+    "reach",
+    "run",
+]

@@ -1,0 +1,218 @@
+"""Running a sweep: by threads here, or by the processes and machines of an executor."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections import deque
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, NamedTuple, Protocol
+
+from ...checks import whole
+from ...engine.jit.threads import processors
+from ...errors import InputError
+from ...results import Progress
+from ..maps.sweep_map import SweepMap, map_of
+from ..sweep import Sweep
+from .store import Store
+from .totals import SweepPart, Totals, part_of
+
+CHUNK = 2**22
+"""Samples a part, unless another number is asked: some tenths of a second."""
+_IN_FLIGHT = 64
+_BYTES = {False: 8, True: 24}  # of a cell, without and with a measure
+_SHARE = 0.8  # of the memory of the machine
+
+
+class Executor(Protocol):
+    """Executor of `concurrent.futures`, client of Dask, or what else has `submit`."""
+
+    def submit(self, function: Any, /, *arguments: Any) -> Any:
+        """A future of function(*arguments), whose `result` waits for it."""
+
+
+class Range(NamedTuple):
+    """Samples first ... last - 1, part `number` of a sweep."""
+
+    number: int
+    first: int
+    last: int
+
+
+def run(
+    sweep: Sweep,
+    *,
+    chunk: int = CHUNK,
+    workers: int | None = None,
+    executor: Executor | None = None,
+    store: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    progress: Progress | None = None,
+) -> SweepMap:
+    """Runs a sweep; the result does not depend on any of the options, to the last bit.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        The sweep.
+    chunk : int, default 4194304
+        Number of samples that are run, and kept, at a time.
+    workers : int, optional
+        Number of threads, by default one for each processor; without an executor.
+    executor : object, optional
+        Runs the parts instead: an executor of `concurrent.futures`, a client of Dask, or another
+        with `submit(function, *arguments)`, whose futures have `result()`.
+    store : path, optional
+        Directory that keeps each part as soon as it is done.
+    resume : bool, default False
+        Whether parts that the store holds are taken from there.
+    progress : callable, optional
+        Called as progress(samples done, samples of all).
+
+    Returns
+    -------
+    found : SweepMap
+        The map.
+
+    Raises
+    ------
+    InputError
+        If an option cannot be used, the store holds another sweep, or the map would not fit into
+        the memory.
+    FileError
+        If the store cannot be read or written; parts that were done are kept.
+    """
+    whole(chunk, "chunk", 1)
+    if workers is not None:
+        whole(workers, "workers", 1)
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise InputError(f"executor: expected an object with submit, got {type(executor).__name__}")
+    threads = workers or processors()
+    _check_memory(sweep, threads + 1)
+    kept = None if store is None else Store(store, sweep, chunk, resume)
+    ranges = _ranges(sweep.samples.count, chunk)
+    tell = _Teller(progress, sweep.samples.count)
+    if executor is not None:
+        return map_of(sweep, _summed(sweep, ranges, executor, kept, tell, _IN_FLIGHT))
+    with ThreadPoolExecutor(threads, thread_name_prefix="poekin") as own:
+        if kept is None:
+            return map_of(sweep, _shared(sweep, ranges, own, threads, tell))
+        return map_of(sweep, _summed(sweep, ranges, own, kept, tell, 2 * threads))
+
+
+def _ranges(count: int, chunk: int) -> Iterator[Range]:
+    for number, first in enumerate(range(0, count, chunk)):
+        yield Range(number, first, min(first + chunk, count))
+
+
+class _Teller:
+    """Says how many samples are done, from any thread."""
+
+    def __init__(self, progress: Progress | None, count: int) -> None:
+        self.progress = progress
+        self.count = count
+        self.done = 0
+        self._telling = threading.Lock()
+
+    def add(self, done: Range) -> None:
+        with self._telling:
+            self.done += done.last - done.first
+            if self.progress is not None:
+                self.progress(self.done, self.count)
+
+
+def _shared(
+    sweep: Sweep,
+    ranges: Iterator[Range],
+    pool: ThreadPoolExecutor,
+    threads: int,
+    tell: _Teller,
+) -> Totals:
+    """The sum of all parts, each thread's in one map of its own."""
+    taking = threading.Lock()
+    failed = threading.Event()
+
+    def taken() -> Iterator[Range]:
+        while not failed.is_set():
+            with taking:
+                one = next(ranges, None)
+            if one is None:
+                return
+            yield one
+
+    def work() -> Totals:
+        totals = Totals(sweep.cells, sweep.is_measured)
+        try:
+            for one in taken():
+                totals.run(sweep, one.first, one.last)
+                tell.add(one)
+        finally:  # where one fails, the others need not go on
+            failed.set()
+        return totals
+
+    futures = [pool.submit(work) for _ in range(threads)]
+    try:
+        first, *others = [future.result() for future in futures]
+    finally:  # an interrupt ends the others too
+        failed.set()
+    for other in others:
+        first.add(other.whole())
+    return first
+
+
+def _summed(
+    sweep: Sweep,
+    ranges: Iterator[Range],
+    executor: Any,
+    store: Store | None,
+    tell: _Teller,
+    most: int,
+) -> Totals:
+    """The sum of all parts, with no more of them waited for at a time than `most`."""
+    totals = Totals(sweep.cells, sweep.is_measured)
+    waiting: deque[tuple[Range, Any]] = deque()
+
+    def take() -> None:
+        one, future = waiting.popleft()
+        part: SweepPart = future.result()
+        if store is not None:
+            store.write(one.number, part)
+        totals.add(part)
+        tell.add(one)
+
+    try:
+        for one in ranges:
+            part = None if store is None else store.read(one.number)
+            if part is not None:
+                totals.add(part)
+                tell.add(one)
+                continue
+            waiting.append((one, executor.submit(part_of, sweep, one.first, one.last)))
+            if len(waiting) >= most:
+                take()
+        while waiting:
+            take()
+    finally:  # an interrupt, or an error of one part, ends the others too
+        for _, future in waiting:
+            future.cancel()
+    return totals
+
+
+def _check_memory(sweep: Sweep, maps: int) -> None:
+    """Refuses a map that does not fit into the memory. Raises: InputError."""
+    needed = sweep.cells.count * _BYTES[sweep.is_measured] * maps
+    there = _memory()
+    if there is not None and needed > _SHARE * there:
+        raise InputError(
+            f"sweep: {sweep.cells.count:.3g} cells take {needed / 2**30:.3g} GiB in {maps} maps, of "
+            f"{there / 2**30:.3g} GiB here; a coarser resolution, fewer directions or fewer workers take less"
+        )
+
+
+def _memory() -> int | None:
+    """Bytes of this machine's memory, where they can be known."""
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return None

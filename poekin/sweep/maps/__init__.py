@@ -1,0 +1,1 @@
+"""Maps, what they answer, and functions that make them."""

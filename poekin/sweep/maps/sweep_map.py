@@ -1,0 +1,303 @@
+"""A map: how many samples fell into each cell, and the best measure there."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import FileError, InputError, UnknownName
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...results import Result
+from ..cells import Cells
+from ..execution.totals import NO_SAMPLE, Totals
+from ..samples import Grid, Random, Samples
+from ..sweep import Sweep
+
+
+@dataclass(frozen=True, eq=False)
+class SweepMap(Result):
+    """What a sweep found; the result of `run` and `reach`.
+
+    Attributes
+    ----------
+    about : dict
+        The sweep as plain data.
+    cells : Cells
+        Where the cells are.
+    samples : Random or Grid
+        The configurations.
+    counts : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray of int
+        Number of samples in each cell.
+    outside : int
+        Number of samples in none of them.
+    best : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray or None
+        Best measure in each cell, in SI units (rad, m), NaN in an empty one; None of a sweep that
+        only counts.
+    attained : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray of int or None
+        Number of the first sample with that measure, -1 in an empty cell.
+    chain : Chain or None
+        The arm; None of a map that was read from a file.
+    """
+
+    left_out: ClassVar = ("cells", "samples", "counts", "best", "attained", "chain")
+    derived: ClassVar = ("reached_volume", "capability_range", "new_cell_chance")
+
+    about: dict[str, Any]
+    cells: Cells
+    samples: Samples
+    counts: np.ndarray
+    outside: int
+    best: Array | None = None
+    attained: np.ndarray | None = None
+    chain: Chain | None = None
+
+    @property
+    def reached(self) -> np.ndarray:
+        """Whether a sample fell into each cube (nx, ny, nz); no unit."""
+        if self.cells.side:
+            return np.any(self.counts, axis=-1)
+        return np.greater(self.counts, 0)
+
+    @property
+    def capability(self) -> Array:
+        """Share of the directions that the tool takes in each cube (nx, ny, nz), 0 to 1, no unit.
+
+        Raises: InputError, of a sweep without directions.
+        """
+        if not self.cells.side:
+            raise InputError("capability: the sweep has no directions (side=0)")
+        return np.count_nonzero(self.counts, axis=-1) / self.cells.tiles
+
+    @property
+    def reached_volume(self) -> float:
+        """Volume of the cubes that were reached, m³."""
+        return float(np.count_nonzero(self.reached)) * self.cells.resolution**3
+
+    @property
+    def capability_range(self) -> tuple[float, float] | None:
+        """Mean and greatest capability of the cubes that were reached; None without directions."""
+        if not self.cells.side or not self.reached.any():
+            return None
+        shares = self.capability[self.reached]
+        return float(shares.mean()), float(shares.max())
+
+    @property
+    def new_cell_chance(self) -> float:
+        """Chance that a further configuration would fall into a cell that is empty so far, by the
+        share of cells with one sample (Good 1953).
+        """
+        return np.count_nonzero(self.counts == 1) / self.samples.count
+
+    def summary(self) -> str:
+        """How many samples fell where, and how much was reached.
+
+        Returns
+        -------
+        text : str
+            Lines such as "3.2 m³ of 14.1 m³ reached in cubes of 50 mm".
+        """
+        cells = self.cells
+        whole = float(np.prod(cells.shape)) * cells.resolution**3
+        lines = [
+            f"{self.samples.count} configurations, {self.outside} of them outside the map",
+            f"{self.reached_volume:.4g} m³ of {whole:.4g} m³ reached, in cubes of {1e3 * cells.resolution:.4g} mm",
+        ]
+        if self.capability_range is not None:
+            mean, most = self.capability_range
+            lines.append(
+                f"of {cells.tiles} directions of the tool {100 * mean:.3g} % in the mean of these cubes, "
+                f"{100 * most:.3g} % in the best"
+            )
+        if self.best is not None and self.reached.any():
+            lines.append(f"manipulability up to {np.nanmax(self.best):.4g}")
+        lines.append(
+            f"a further configuration would fall into an empty cell with a chance of {100 * self.new_cell_chance:.2g} %"
+        )
+        return "\n".join(lines)
+
+    def query(self, T: ArrayLike) -> np.ndarray:
+        """Number of samples in the cells of poses.
+
+        Parameters
+        ----------
+        T : (..., 4, 4) array_like
+            Poses of the tip in the base frame, m.
+
+        Returns
+        -------
+        counts : (...) ndarray of int
+            Numbers of samples; 0 outside of the map.
+
+        Raises
+        ------
+        PoseError
+            If an element of T is no pose.
+        ShapeError
+            If T has another shape.
+
+        Notes
+        -----
+        Accuracy: as `Cells.find`. Source: as `reach`.
+        """
+        found = self.cells.find(T)
+        counts = self.counts.reshape(-1)[found]
+        return np.where(found < 0, 0, counts)
+
+    def slice(self, axis: str, at: float) -> np.ndarray:
+        """The cells of one layer of cubes.
+
+        Parameters
+        ----------
+        axis : {"x", "y", "z"}
+            Axis of the base frame that the layer is across.
+        at : float
+            Place on it, m.
+
+        Returns
+        -------
+        counts : (n1, n2) or (n1, n2, tiles) ndarray of int
+            Counts without that axis.
+
+        Raises
+        ------
+        UnknownName
+            If there is no such axis.
+        InputError
+            If the map does not reach there.
+        """
+        if axis not in ("x", "y", "z"):
+            raise UnknownName(f"axis: expected 'x', 'y' or 'z', got {axis!r}")
+        along = "xyz".index(axis)
+        start = self.cells.corner[along]
+        number = math.floor((at - start) * self.cells.place()[3])
+        if not 0 <= number < self.cells.shape[along]:
+            end = start + self.cells.shape[along] * self.cells.resolution
+            raise InputError(f"at: expected {axis} within {start:g} ... {end:g} m, got {at!r}")
+        return np.take(self.counts, number, axis=along)
+
+    def configurations(self, cells: Any = ...) -> Array:
+        """The configurations with the best measure.
+
+        Parameters
+        ----------
+        cells : index, optional
+            Index of the arrays (counts.shape); all by default.
+
+        Returns
+        -------
+        q : (..., m) ndarray
+            Configurations, rad or m; NaN for an empty cell.
+
+        Raises
+        ------
+        InputError
+            If the sweep has no measure.
+        """
+        if self.attained is None:
+            raise InputError("configurations: the sweep only counts (measure='reach')")
+        numbers = np.asarray(self.attained[cells])
+        known = numbers != NO_SAMPLE
+        q = np.full((*numbers.shape, len(self.samples.lower)), np.nan)
+        q[known] = self.samples.configurations(numbers[known])
+        return q
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the map to a file of NumPy's (.npz), with its description as JSON inside.
+
+        Parameters
+        ----------
+        path : path
+            File to write; an old one is replaced.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written.
+        """
+        file = Path(path)
+        place = file.with_name(f"{file.name}.{os.getpid()}")
+        arrays = {
+            "about": np.array(json.dumps(self.about)),
+            "counts": self.counts,
+            "outside": self.outside,
+        }
+        if self.best is not None:
+            arrays |= {"best": self.best, "attained": self.attained}
+        try:
+            with place.open("wb") as written:
+                np.savez_compressed(written, **arrays)
+            place.replace(file)
+        except OSError as error:
+            place.unlink(missing_ok=True)
+            raise FileError(f"{file}: {error.strerror}") from error
+
+
+def map_of(sweep: Sweep, totals: Totals) -> SweepMap:
+    """The map of what a sweep has added up."""
+    shape = sweep.cells.array_shape
+    best = None
+    attained = None
+    if sweep.is_measured:
+        attained = totals.attained.reshape(shape)
+        # squares were compared; rounding may make one of 0 negative
+        squares = np.maximum(totals.best.reshape(shape), 0.0)
+        best = np.sqrt(np.where(attained == NO_SAMPLE, np.nan, squares))
+    return SweepMap(
+        sweep.describe(),
+        sweep.cells,
+        sweep.samples,
+        totals.counts.reshape(shape),
+        totals.outside,
+        best,
+        attained,
+        sweep.chain,
+    )
+
+
+def load_map(path: str | os.PathLike[str]) -> SweepMap:
+    """Reads a map that `SweepMap.save` has written.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+
+    Returns
+    -------
+    found : SweepMap
+        The map.
+
+    Raises
+    ------
+    FileError
+        If there is no such file, or it holds no map.
+    """
+    try:
+        with Path(path).open("rb") as opened, np.load(opened, allow_pickle=False) as file:
+            about = json.loads(str(file["about"]))
+            arrays = {name: file[name] for name in ("counts", "best", "attained") if name in file}
+            outside = int(file["outside"])
+        corner = tuple(about["corner"])
+        cells = Cells(corner, about["resolution"], tuple(about["shape"]), about["side"])
+        return SweepMap(about, cells, _samples(about["samples"]), outside=outside, **arrays)
+    except OSError as error:
+        raise FileError(f"{path}: {error.strerror or 'no map of a sweep'}") from error
+    except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+        raise FileError(f"{path}: no map of a sweep, as SweepMap.save writes it") from error
+
+
+def _samples(about: dict[str, Any]) -> Samples:
+    lower, upper = np.array([about["lower"], about["upper"]])
+    if "random" in about:
+        return Random(lower, upper, about["random"], about["seed"])
+    counts = tuple(about["grid"])
+    return Grid(lower, upper, math.prod(counts), counts)

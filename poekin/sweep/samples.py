@@ -1,0 +1,219 @@
+"""Samples of a sweep: configurations by number, drawn at random or on a grid."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import KERNEL_INT, whole
+from ..errors import InputError, ShapeError
+from ..groups.arrays import Array
+from ..model.chain import Chain
+from ..model.readings.coupled import beyond_own_limits
+from ..model.sampling import sampling_range
+
+_TRIED = 4096
+_ASKED = 2**62 // 64  # numbers of samples times coordinates are 64-bit numbers too
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Configurations by their numbers 0 ... count - 1, each a function of its number alone.
+
+    Attributes
+    ----------
+    lower, upper : (m,) ndarray
+        Bounds of the coordinates, rad or m.
+    count : int
+        Number of samples.
+    """
+
+    kind: ClassVar[int]
+
+    lower: Array
+    upper: Array
+    count: int
+
+    @abstractmethod
+    def numbers(self) -> np.ndarray:
+        """Whole numbers of the kernel: the kind, the seed, the counts of a grid."""
+
+    @abstractmethod
+    def describe(self) -> dict[str, object]:
+        """Plain data from which the same samples are made again."""
+
+    @property
+    def bounds(self) -> Array:
+        """Lower bounds and widths (2, m)."""
+        return np.array([self.lower, self.upper - self.lower])
+
+    def configurations(self, numbers: ArrayLike) -> Array:
+        """Configurations of samples.
+
+        Parameters
+        ----------
+        numbers : (N,) array_like of int
+            Numbers of samples, each below `count`.
+
+        Returns
+        -------
+        q : (N, m) ndarray
+            Their configurations, rad or m.
+
+        Raises
+        ------
+        InputError
+            If a number is no sample's.
+        """
+        from ..engine.kernels.sweep import sweep_kernel  # which imports Numba
+
+        asked = np.asarray(numbers)
+        if asked.ndim != 1 or asked.dtype.kind not in "iu":
+            raise ShapeError(
+                f"numbers: expected whole numbers (N,), got {asked.dtype} {asked.shape}"
+            )
+        if len(asked) and not (asked.min() >= 0 and asked.max() < self.count):
+            raise InputError(
+                f"numbers: expected 0 ... {self.count - 1}, got {asked.min()} ... {asked.max()}"
+            )
+        q = np.empty((len(asked), len(self.lower)))
+        sweep_kernel.sampled.call(asked.astype(np.int64), self.numbers(), self.bounds, q)
+        return q
+
+
+@dataclass(frozen=True, eq=False)
+class Random(Samples):
+    """Configurations drawn evenly between bounds.
+
+    Attributes
+    ----------
+    lower, upper : (m,) ndarray
+        Bounds of the coordinates, rad or m.
+    count : int
+        Number of samples.
+    seed : int
+        Seed of the random numbers; the same seed gives the same samples on every machine.
+    """
+
+    kind = 1
+
+    seed: int = 0
+
+    @classmethod
+    def of(cls, chain: Chain, count: int, seed: int = 0) -> Random:
+        """Samples within a chain's limits.
+
+        Parameters
+        ----------
+        chain : Chain
+            The arm; a coordinate without limits is drawn from one turn, or from 2 m.
+        count : int
+            Number of samples.
+        seed : int, default 0
+            Seed of the random numbers.
+
+        Returns
+        -------
+        samples : Random
+            The samples.
+
+        Raises
+        ------
+        InputError
+            If a number cannot be used, the arm has no coordinate, or coordinates within their
+            limits take joints beyond their own.
+        """
+        whole(count, "count", 1, _ASKED)
+        whole(seed, "seed", 0, KERNEL_INT)
+        return cls(*_range_of(chain), count, seed)
+
+    def numbers(self) -> np.ndarray:
+        """Whole numbers of the kernel."""
+        return np.array([self.kind, self.seed], np.int64)
+
+    def describe(self) -> dict[str, object]:
+        """Plain data of the samples."""
+        return {"random": self.count, "seed": self.seed} | _bounds(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Grid(Samples):
+    """Configurations in the middles of equal parts of each coordinate's range.
+
+    Attributes
+    ----------
+    lower, upper : (m,) ndarray
+        Bounds of the coordinates, rad or m.
+    count : int
+        Number of samples.
+    counts : tuple of int
+        Number of parts of each coordinate; the last coordinate changes first.
+    """
+
+    kind = 0
+
+    counts: tuple[int, ...] = ()
+
+    @classmethod
+    def of(cls, chain: Chain, counts: int | Sequence[int]) -> Grid:
+        """A grid within a chain's limits.
+
+        Parameters
+        ----------
+        chain : Chain
+            The arm; a coordinate without limits has one turn, or 2 m.
+        counts : int or sequence of int
+            Number of parts of every coordinate, or of each.
+
+        Returns
+        -------
+        samples : Grid
+            The samples.
+
+        Raises
+        ------
+        InputError
+            If a number cannot be used, the arm has no coordinate, or coordinates within their
+            limits take joints beyond their own.
+        ShapeError
+            If there is another number of counts than of coordinates.
+        """
+        each: Sequence[Any] = [counts] * chain.dof if np.ndim(counts) == 0 else list(counts)  # type: ignore[arg-type]
+        if len(each) != chain.dof:
+            raise ShapeError(f"counts: expected one or {chain.dof} numbers, got {len(each)}")
+        parts = tuple(whole(part, "counts", 1, KERNEL_INT) for part in each)
+        count = whole(math.prod(parts), "product of the counts", 1, _ASKED)
+        return cls(*_range_of(chain), count, parts)
+
+    def numbers(self) -> np.ndarray:
+        """Whole numbers of the kernel."""
+        return np.array([self.kind, 0, *self.counts], np.int64)
+
+    def describe(self) -> dict[str, object]:
+        """Plain data of the samples."""
+        return {"grid": list(self.counts)} | _bounds(self)
+
+
+def _bounds(samples: Samples) -> dict[str, object]:
+    return {"lower": samples.lower.tolist(), "upper": samples.upper.tolist()}
+
+
+def _range_of(chain: Chain) -> tuple[Array, Array]:
+    """Bounds of the coordinates. Raises: InputError where the joints' own limits cut corners off."""
+    if not chain.dof:
+        raise InputError(f"sweep: {chain!r} has no coordinate")
+    lower, upper = sampling_range(chain)
+    rng = np.random.default_rng(0)
+    q = rng.uniform(lower, upper, (_TRIED, chain.dof))
+    if beyond_own_limits(chain, q).any():
+        raise InputError(
+            "sweep: coordinates within their limits take joints beyond their own (joint_limits); "
+            "a sweep needs limits of each coordinate by itself"
+        )
+    return lower, upper

@@ -1,0 +1,81 @@
+"""`poekin sweep reach` and `show`."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.sweep import load_map
+
+FEW = ("--samples", "2e4", "--resolution", "0.2", "--tip", "tool0")
+
+
+def test_a_map_is_made_written_and_shown(tmp_path, poekin):
+    place = tmp_path / "map.npz"
+    code, out, _ = poekin("sweep", "reach", "ur5e", *FEW, "--side", "1", "--output", str(place))
+    own = pk.sweep.reach(pk.load("ur5e").chain(tip="tool0"), samples=20_000, resolution=0.2, side=1)
+    assert code == 0
+    assert out.startswith(own.summary())
+    read = load_map(place)
+    np.testing.assert_array_equal(read.counts, own.counts)
+    code, out, _ = poekin("sweep", "show", str(place))
+    assert code == 0
+    assert out.startswith(f"tool0 in {own.about['base']}\n{own.summary()}")
+    layers = [line.split() for line in out.split("─\n")[1].strip().split("\n")]
+    assert sum(float(area) for _, area in layers) * 0.2 == pytest.approx(
+        own.reached_volume, rel=1e-3
+    )
+    code, out, _ = poekin("sweep", "show", str(place), "--json")
+    assert json.loads(out)["about"]["samples"]["random"] == 20_000
+
+
+def test_options_reach_the_sweep_and_json_is_the_result(poekin):
+    words = ("--measure", "manipulability", "--seed", "3", "--workers", "1", "--json")
+    code, out, _ = poekin("sweep", "reach", "ur5e", *FEW, *words)
+    document = json.loads(out)
+    assert code == 0
+    assert document["about"]["measure"] == "manipulability"
+    assert document["about"]["samples"]["seed"] == 3
+    assert document["outside"] == 0
+
+
+def test_a_store_is_gone_on_with_where_it_is_asked(tmp_path, poekin, refused):
+    store = ("--store", str(tmp_path / "parts"))
+    assert poekin("sweep", "reach", "ur5e", *FEW, *store)[0] == 0
+    assert "resume=True goes on" in refused("sweep", "reach", "ur5e", *FEW, *store)
+    assert poekin("sweep", "reach", "ur5e", *FEW, *store, "--resume")[0] == 0
+    assert "these differ: samples" in refused(
+        "sweep", "reach", "ur5e", *FEW, *store, "--resume", "--seed", "1"
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (
+            ("--samples", "some"),
+            "--samples: expected a whole number, as 10000000 or 1e8, got 'some'",
+        ),
+        (("--samples", "1.5"), "--samples: expected a whole number"),
+        (("--samples", "0"), "count: expected a whole number from 1 on"),
+        (("--output", "map.csv"), "--output: expected a .npz file"),
+        (("--resume",), "--resume: expected with --store"),
+        (("--resolution", "0"), "resolution: expected a positive number"),
+        (("--resolution", "1e-9"), "at most 2^40 cells"),
+        (("--tip", "nobody"), "nobody"),
+    ],
+)
+def test_what_cannot_be_used_is_refused(words, expected, refused):
+    assert expected in refused("sweep", "reach", "ur5e", *words)
+
+
+def test_a_map_is_not_written_over_the_model_and_what_is_no_map_is_refused(tmp_path, refused):
+    model = tmp_path / "arm.npz"
+    model.write_text(pk.to_urdf(pk.load("ur5e")))
+    assert "it is the file of the model" in refused(
+        "sweep", "reach", str(model), "--output", str(model)
+    )
+    assert "no map of a sweep" in refused("sweep", "show", str(model))

@@ -1,0 +1,65 @@
+"""Places of the base, ranked by what the arm reaches from there."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import PoseError, ShapeError
+from poekin.sweep import Cells, Random, Sweep, base_placement, run
+
+ARM = pk.load("ur5e").chain(tip="tool0")
+CELLS = Cells.box([-1.1] * 3, [1.1] * 3, 0.1, side=1)
+MAP = run(Sweep(ARM, Random.of(ARM, 200_000, seed=1), CELLS))
+
+
+def places(*p):
+    T = np.tile(np.eye(4), (len(p), 1, 1))
+    T[:, :3, 3] = p
+    return T
+
+
+def test_poses_that_were_sampled_are_reached_from_where_the_map_was_made():
+    q = MAP.samples.configurations(np.arange(20))
+    T_bt = ARM.fk(q)
+    T_wb = pk.se3.exp([[0, 0, 1.0, 0.3, -0.2, 0.1], [0, 0, 0, 5.0, 0, 0]])
+    ranking = base_placement(MAP, T_wb[0] @ T_bt, T_wb)
+    assert ranking.order.tolist() == [0, 1]
+    assert ranking.reached.tolist() == [20, 0]
+    assert ranking.rarest.tolist() == [MAP.query(T_bt).min(), 0]
+    np.testing.assert_array_equal(ranking.T_wb, T_wb)
+
+
+def test_more_poses_come_first_then_more_samples_then_the_given_order():
+    targets = pk.se3.exp([[0, 3.0, 0, 0.5, 0.1, 0.3], [0, 3.0, 0, 0.5, -0.3, 0.2]])
+    bases = places([9, 0, 0], [0, 0, 0], [0.2, 0, 0], [0, 0, 0], [8, 0, 0])
+    ranking = base_placement(MAP, targets, bases)
+    counts = np.array([MAP.query(np.linalg.inv(T) @ targets) for T in bases])
+    reached = (counts > 0).sum(axis=1)
+    assert ranking.reached.tolist() == sorted(reached.tolist(), reverse=True)
+    keys = [
+        (-r, -w, k) for r, w, k in zip(ranking.reached, ranking.rarest, ranking.order, strict=True)
+    ]
+    assert keys == sorted(keys)
+    assert ranking.order[-2:].tolist() == [0, 4]
+
+
+def test_the_summary_says_the_best_and_how_many_serve():
+    ranking = base_placement(MAP, places([0.4, 0.2, 0.3]), places([9, 0, 0], [0, 0, 0]))
+    if ranking.reached[0]:
+        assert ranking.summary() == "candidate 1 of 2 reaches 1 of 1 poses; 1 reach all"
+    assert ranking.to_dict()["poses"] == 1
+
+
+@pytest.mark.parametrize(
+    ("targets", "bases", "error", "words"),
+    [
+        (np.eye(4), places([0, 0, 0]), ShapeError, "T_wt: expected poses"),
+        (places([0, 0, 0]), np.empty((0, 4, 4)), ShapeError, "T_wb: expected poses"),
+        (places([0, 0, 0]), 2 * places([0, 0, 0]), PoseError, "T_wb"),
+    ],
+)
+def test_what_are_no_poses_is_refused(targets, bases, error, words):
+    with pytest.raises(error, match=words):
+        base_placement(MAP, targets, bases)

@@ -1,0 +1,114 @@
+"""What a map answers, and its file."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import FileError, InputError, UnknownName
+from poekin.sweep import Cells, Grid, Random, Sweep, load_map, run
+from tests.sweep.arms import bits, measured, two_links
+
+ARM = two_links()
+CELLS = Cells.box([-1] * 3, [1] * 3, 0.1, side=1)
+MEASURED = run(Sweep(ARM, Random.of(ARM, 5000, seed=1), CELLS, "manipulability"))
+COUNTED = run(Sweep(ARM, Grid.of(ARM, 50), Cells.box([-1] * 3, [1] * 3, 0.1)))
+
+
+def test_a_pose_that_was_sampled_is_found_and_one_out_of_reach_not():
+    q = MEASURED.samples.configurations([17])[0]
+    assert MEASURED.query(ARM.fk(q)) >= 1
+    far = np.eye(4)
+    far[0, 3] = 0.95
+    outside = np.eye(4)
+    outside[0, 3] = 5.0
+    assert MEASURED.query([far, outside]).tolist() == [0, 0]
+
+
+def test_a_layer_is_that_of_the_place():
+    np.testing.assert_array_equal(MEASURED.slice("z", 0.05), MEASURED.counts[:, :, 10])
+    np.testing.assert_array_equal(MEASURED.slice("x", -0.95), MEASURED.counts[0])
+    assert COUNTED.slice("y", 0.31).shape == (20, 20)
+    with pytest.raises(UnknownName, match="'x', 'y' or 'z'"):
+        MEASURED.slice("w", 0.0)
+    with pytest.raises(InputError, match=r"expected y within -1 \.\.\. 1 m"):
+        MEASURED.slice("y", 1.5)
+
+
+def test_configurations_with_the_best_measure_lie_in_their_cells():
+    filled = np.argwhere(MEASURED.counts > 0)
+    q = MEASURED.configurations()
+    assert q.shape == (*MEASURED.counts.shape, 2)
+    assert np.isnan(q[MEASURED.counts == 0]).all()
+    own = q[MEASURED.counts > 0]
+    index = np.ravel_multi_index(filled.T, MEASURED.counts.shape)
+    np.testing.assert_array_equal(CELLS.find(ARM.fk(own)), index)
+    one = tuple(filled[0])
+    np.testing.assert_array_equal(MEASURED.configurations(one), own[0])
+    with pytest.raises(InputError, match="only counts"):
+        COUNTED.configurations()
+
+
+def test_capability_is_the_share_of_directions():
+    # the tool's axis never turns: one of twelve directions
+    assert set(np.unique(MEASURED.capability)) == {0.0, 1 / 12}
+    assert MEASURED.capability_range == (pytest.approx(1 / 12), pytest.approx(1 / 12))
+    assert COUNTED.capability_range is None
+    with pytest.raises(InputError, match="no directions"):
+        _ = COUNTED.capability
+
+
+def test_the_summary_says_volume_directions_and_measure():
+    lines = MEASURED.summary().split("\n")
+    assert lines[0] == "5000 configurations, 0 of them outside the map"
+    volume = np.count_nonzero(MEASURED.reached) * 1e-3
+    assert lines[1] == f"{volume:.4g} m³ of 8 m³ reached, in cubes of 100 mm"
+    assert lines[2].startswith("of 12 directions of the tool 8.33 % in the mean")
+    assert lines[3] == f"manipulability up to {np.nanmax(measured(MEASURED)[0]):.4g}"
+    once = np.count_nonzero(MEASURED.counts == 1) / 5000
+    assert (
+        lines[4]
+        == f"a further configuration would fall into an empty cell with a chance of {100 * once:.2g} %"
+    )
+    assert len(COUNTED.summary().split("\n")) == 3
+    assert MEASURED.to_dict()["reached_volume"] == pytest.approx(volume)
+    assert 0 < once < 0.1
+
+
+@pytest.mark.parametrize("found", [MEASURED, COUNTED], ids=["measured", "counted"])
+def test_a_file_gives_the_map_back(tmp_path, found):
+    found.save(tmp_path / "map.npz")
+    read = load_map(tmp_path / "map.npz")
+    assert read.to_dict() == found.to_dict()
+    assert read.counts.tobytes() == found.counts.tobytes()
+    assert read.cells == found.cells
+    numbers = np.arange(10)
+    np.testing.assert_array_equal(
+        read.samples.configurations(numbers), found.samples.configurations(numbers)
+    )
+    if found.best is not None:
+        assert bits(read) == bits(found)
+        np.testing.assert_array_equal(read.configurations(), found.configurations())
+    assert [file.name for file in tmp_path.iterdir()] == ["map.npz"]
+
+
+def test_a_file_that_holds_no_map_is_refused(tmp_path):
+    with pytest.raises(FileError, match="No such file"):
+        load_map(tmp_path / "none.npz")
+    (tmp_path / "text.npz").write_text("no map")
+    with pytest.raises(FileError, match="no map of a sweep"):
+        load_map(tmp_path / "text.npz")
+    np.savez(tmp_path / "other.npz", counts=np.zeros(3))
+    with pytest.raises(FileError, match=r"no map of a sweep, as SweepMap\.save"):
+        load_map(tmp_path / "other.npz")
+
+
+def test_a_map_that_cannot_be_written_leaves_nothing(tmp_path):
+    with pytest.raises(FileError, match=r"map\.npz"):
+        MEASURED.save(tmp_path / "none" / "map.npz")
+
+
+def test_a_map_shows_itself_in_a_notebook():
+    assert "reached" in MEASURED._repr_html_()
+    assert pk.sweep.SweepMap is type(MEASURED)
