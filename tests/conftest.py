@@ -35,6 +35,7 @@ SLOW = (
     *("cli/test_pipes.py", "cli/test_run.py", "cli/test_conform.py", "cli/test_from_ros.py"),
     *("engine/jit/test_cache.py", "test_examples.py", "tools/test_fuzz.py", "tools/test_mutate.py"),
     *("testing/conform/process/test_child.py", "testing/conform/test_plugin.py"),
+    *("sweep/execution/test_store.py", "sweep/execution/test_every_processor.py"),
     *("testing/conform/test_faults.py", "testing/conform/test_libraries.py"),
     # topics of the report, and other libraries
     *("benchmarks/test_report.py", "benchmarks/test_accuracy_by_angle.py"),

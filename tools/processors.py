@@ -10,8 +10,8 @@ environment of the tests:
   order of sums;
 - the C library's sines and cosines (GLIBC_TUNABLES), where it is glibc.
 
-The instructions of an older processor are among this one's, so they run here. Property tests draw a
-fifth of the examples of `make test`, the same ones.
+The instructions of an older processor are among this one's, so they run here. Property tests draw
+two fifths of the examples of `make test`, the same ones.
 """
 
 from __future__ import annotations
