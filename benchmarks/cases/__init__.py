@@ -36,6 +36,7 @@ from . import (
     robustness,
     scaling,
     start,
+    sweep,
 )
 
 _SECTIONS = {
@@ -59,6 +60,7 @@ _SECTIONS = {
         compiled_robots,
         compile_time,
         start,
+        sweep,
     ),
     "Solve": (inverse_kinematics, ik_all, ik_all_time, follow),
     "Calibrate": (

@@ -21,7 +21,7 @@ Measure = Literal["reach", "manipulability"]
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """What is asked of many configurations: how many of them take the tool into each cell, and the
+    """Question to many configurations: how many of them take the tool into each cell, and the
     best measure there.
 
     Attributes

@@ -17,7 +17,7 @@ from ..output import Progress, as_json, path_text, say
 
 
 class MeasureName(StrEnum):
-    """What a map keeps of each cell."""
+    """Measure that a map keeps of each cell."""
 
     reach = "reach"
     manipulability = "manipulability"

@@ -1,4 +1,4 @@
-"""What a range of samples adds to the cells of a map, and sums of that, in any order the same."""
+"""Counts of a range of samples in the cells of a map, and their sums, in any order the same."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ class Totals:
 
 
 def part_of(sweep: Sweep, first: int, last: int) -> SweepPart:
-    """What samples first ... last - 1 add: a function of these alone."""
+    """Part of samples first ... last - 1: a function of these alone."""
     totals = Totals(sweep.cells, sweep.is_measured)
     totals.run(sweep, first, last)
     return totals.part()

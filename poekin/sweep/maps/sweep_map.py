@@ -25,7 +25,7 @@ from ..sweep import Sweep
 
 @dataclass(frozen=True, eq=False)
 class SweepMap(Result):
-    """What a sweep found; the result of `run` and `reach`.
+    """Map that a sweep has found; the result of `run` and `reach`.
 
     Attributes
     ----------
@@ -98,7 +98,7 @@ class SweepMap(Result):
         return np.count_nonzero(self.counts == 1) / self.samples.count
 
     def summary(self) -> str:
-        """How many samples fell where, and how much was reached.
+        """Numbers of samples, and how much was reached.
 
         Returns
         -------

@@ -53,7 +53,7 @@ def sweep_map_scene(found: SweepMap, robot: Robot | None = None) -> Scene:
 
 
 def _values(found: SweepMap) -> tuple[str, Array]:
-    """What colours the cubes that were reached."""
+    """Words and values (K,) by which the cubes that were reached are coloured."""
     if found.best is not None:
         best = found.best
         if found.cells.side:

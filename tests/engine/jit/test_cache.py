@@ -97,7 +97,9 @@ class Session:
         """exp on SO(3), by a kernel that has to be loaded or compiled."""
         self._begin()
         known, R = group_kernels.so3_exp, np.full((1, 3, 3), np.nan)
-        new = Kernel(known.function, known.arguments, known.returns, known.quick, known.bare)
+        new = Kernel(
+            known.function, known.arguments, known.returns, known.quick, known.bare, known.portable
+        )
         new.call(np.zeros((1, 3)), R)
         np.testing.assert_array_equal(R, np.eye(3)[None])
         return self.caplog.messages

@@ -14,21 +14,23 @@ _SECOND = np.uint64(0x94D049BB133111EB)
 _UNIT = 2.0**-53
 
 
-def write_sample(samples, bounds, number, q):
-    """Coordinates q (m,) of sample `number`."""
+def write_samples(samples, bounds, first, q):
+    """Coordinates q (N, m) of samples `first`, first + 1 and so on."""
     if samples[KIND] == GRID:
-        _write_grid(number, samples[COUNTS:], bounds, q)
+        for k in range(q.shape[0]):
+            _write_grid(first + k, samples[COUNTS:], bounds, q[k])
     else:
-        _write_random(np.uint64(samples[SEED]), number, bounds, q)
+        _write_random(np.uint64(samples[SEED]), first, bounds, q)
 
 
-def _write_random(seed, number, bounds, q):
+def _write_random(seed, first, bounds, q):
     """Evenly between the bounds."""
-    m = len(q)
+    count, m = q.shape
     start = _mixed(seed)
-    for i in range(m):
-        bits = _mixed(start + np.uint64(number * m + i + 1) * _STEP)
-        q[i] = bounds[0, i] + bounds[1, i] * (np.int64(bits >> np.uint64(11)) * _UNIT)
+    for k in range(count):
+        for i in range(m):
+            bits = _mixed(start + np.uint64((first + k) * m + i + 1) * _STEP)
+            q[k, i] = bounds[0, i] + bounds[1, i] * (np.int64(bits >> np.uint64(11)) * _UNIT)
 
 
 def _mixed(x):

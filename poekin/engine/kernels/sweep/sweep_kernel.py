@@ -16,7 +16,7 @@ from ...jit.array_io import without_refcount
 from ...jit.kernel import kernel
 from ...straight_line.machine_code import LANES
 from ..arm_kernels import BLOCK, run_columns, sines_of_block, sines_room
-from .samples import write_sample
+from .samples import write_samples
 from .tiles import tile
 
 OUTSIDE = -1
@@ -63,13 +63,13 @@ def swept(arm, first, last, samples, bounds, cells, place, counts, best, attaine
     found = np.empty(BLOCK, np.int64)
     outside = 0
     for start in range(first - first % BLOCK, last, BLOCK):
-        for k in range(BLOCK):
-            write_sample(samples, bounds, start + k, q[k])
+        write_samples(samples, bounds, start, q)
         sines_of_block(arm, q, sines, cosines)
         for k in range(0, BLOCK, LANES):
             run_columns(arm, sines, cosines, k, q, R_p, measure)
             _write_cells(cells, place, R_p, found, k)
-            measures[k : k + LANES] = measure[0]
+            for lane in range(LANES):
+                measures[k + lane] = measure[0, lane]
         # in a loop of its own, so that the processor waits for the memory of many cells at once
         for k in range(max(first - start, 0), min(last - start, BLOCK)):
             cell = found[k]
@@ -87,7 +87,7 @@ def swept(arm, first, last, samples, bounds, cells, place, counts, best, attaine
 def sampled(numbers, samples, bounds, q):
     """Configurations q (N, m) of samples by their numbers."""
     for k in range(len(numbers)):
-        write_sample(samples, bounds, numbers[k], q[k])
+        write_samples(samples, bounds, numbers[k], q[k : k + 1])
 
 
 @kernel("r3 i1 r1 n1", portable=True)
