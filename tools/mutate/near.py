@@ -109,6 +109,8 @@ NEAR = {
     "view/scenes/singular": f"view/singularity_scene {_DRAWN}",
     "view/scenes/solutions view/scenes/targets": f"view/solution_scenes {_DRAWN} view/path_scene",
     "view/exaggerated view/overlay": f"view/exaggerated {_DRAWN} {_SCENES}",
+    "view/scenes/sweep_map": "view/sweep_map_scene view/view",
+    "engine/kernels/sweep/": "sweep/",
     "view/view": "own",
     "cli/draw": "own cli/compare",
     "cli/view": "own",

@@ -78,6 +78,7 @@ WHOLE = {
     "solve/calibration/": "solve/calibration/ cli/calibrate",
     "html_page svg": "html_page solve/ view/",
     "view/": "view/ cli/",
+    "sweep/": "sweep/ cli/sweep/",
     "testing/": f"testing/ groups/ {CHAINS} cli/conform cli/validate",
     "cli/": "cli/",
 }
