@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import threading
-from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple, Protocol
@@ -20,7 +19,7 @@ from .totals import SweepPart, Totals, part_of
 
 CHUNK = 2**22
 """Samples a part, unless another number is asked: some tenths of a second."""
-_IN_FLIGHT = 64
+_GIVEN = 8  # workers of an executor, where nobody says how many it has
 _BYTES = {False: 8, True: 24}  # of a cell, without and with a measure
 _SHARE = 0.8  # of the memory of the machine
 
@@ -29,7 +28,9 @@ class Executor(Protocol):
     """Executor of `concurrent.futures`, client of Dask, or what else has `submit`."""
 
     def submit(self, function: Any, /, *arguments: Any) -> Any:
-        """A future of function(*arguments), whose `result` waits for it."""
+        """A future of function(*arguments): its `result()` waits for it, `done()` does not, and
+        `cancel()` gives it up.
+        """
 
 
 class Range(NamedTuple):
@@ -59,10 +60,11 @@ def run(
     chunk : int, default 4194304
         Number of samples that are run, and kept, at a time.
     workers : int, optional
-        Number of threads, by default one for each processor; without an executor.
+        Number of threads, by default one for each processor; of an executor its workers, which are
+        given twice as many parts at a time, by default 16.
     executor : object, optional
         Runs the parts instead: an executor of `concurrent.futures`, a client of Dask, or another
-        with `submit(function, *arguments)`, whose futures have `result()`.
+        with `submit(function, *arguments)` and such futures.
     store : path, optional
         Directory that keeps each part as soon as it is done.
     resume : bool, default False
@@ -94,7 +96,8 @@ def run(
     ranges = _ranges(sweep.samples.count, chunk)
     tell = _Teller(progress, sweep.samples.count)
     if executor is not None:
-        return map_of(sweep, _summed(sweep, ranges, executor, kept, tell, _IN_FLIGHT))
+        most = 2 * (workers or _GIVEN)
+        return map_of(sweep, _summed(sweep, ranges, executor, kept, tell, most))
     with ThreadPoolExecutor(threads, thread_name_prefix="poekin") as own:
         if kept is None:
             return map_of(sweep, _shared(sweep, ranges, own, threads, tell))
@@ -131,10 +134,10 @@ def _shared(
 ) -> Totals:
     """The sum of all parts, each thread's in one map of its own."""
     taking = threading.Lock()
-    failed = threading.Event()
+    ended = threading.Event()
 
     def taken() -> Iterator[Range]:
-        while not failed.is_set():
+        while not ended.is_set():
             with taking:
                 one = next(ranges, None)
             if one is None:
@@ -147,15 +150,15 @@ def _shared(
             for one in taken():
                 totals.run(sweep, one.first, one.last)
                 tell.add(one)
-        finally:  # where one fails, the others need not go on
-            failed.set()
+        finally:  # nothing is left, or this one failed: the others need not go on
+            ended.set()
         return totals
 
     futures = [pool.submit(work) for _ in range(threads)]
     try:
         first, *others = [future.result() for future in futures]
     finally:  # an interrupt ends the others too
-        failed.set()
+        ended.set()
     for other in others:
         first.add(other.whole())
     return first
@@ -171,10 +174,12 @@ def _summed(
 ) -> Totals:
     """The sum of all parts, with no more of them waited for at a time than `most`."""
     totals = Totals(sweep.cells, sweep.is_measured)
-    waiting: deque[tuple[Range, Any]] = deque()
+    waiting: list[tuple[Range, Any]] = []
 
     def take() -> None:
-        one, future = waiting.popleft()
+        # one that is done is kept at once, whatever was begun before it
+        done = (k for k, (_, future) in enumerate(waiting) if future.done())
+        one, future = waiting.pop(next(done, 0))
         part: SweepPart = future.result()
         if store is not None:
             store.write(one.number, part)

@@ -64,6 +64,73 @@ def test_an_executor_is_given_all_parts_once(whole):
     assert executor.asked == [(0, 3000), (3000, 6000), (6000, 9000), (9000, 10_001)]
 
 
+class Late:
+    """An executor whose first part is not done before all others were asked for."""
+
+    def __init__(self, last):
+        self.last = last
+        self.first = Future()
+
+    def submit(self, function, *arguments):
+        future = self.first if arguments[1] == 0 else Future()
+        if future is not self.first:
+            future.set_result(function(*arguments))
+        if arguments[2] == self.last:
+            self.first.set_result(function(arguments[0], 0, 3000))
+        return future
+
+
+def test_a_part_that_is_done_is_kept_whatever_was_begun_before_it(tmp_path, whole):
+    kept = []
+
+    def tell(done, count):
+        kept.append(sorted(int(file.stem[5:]) for file in tmp_path.glob("part-*.npz")))
+
+    late = Late(10_001)
+    found = run(SWEEP, chunk=3000, executor=late, workers=1, store=tmp_path, progress=tell)
+    assert bits(found) == whole
+    assert kept[:2] == [[1], [1, 2]]
+
+
+class Counting:
+    """An executor that counts the parts that were asked for and not taken."""
+
+    def __init__(self):
+        self.open = self.most = 0
+
+    def submit(self, function, *arguments):
+        self.open += 1
+        self.most = max(self.most, self.open)
+        part = function(*arguments)
+        return Taken(self, part)
+
+
+class Taken:
+    """A future that is never done before it is waited for."""
+
+    def __init__(self, executor, part):
+        self.executor = executor
+        self.part = part
+
+    def done(self):
+        return False
+
+    def result(self):
+        self.executor.open -= 1
+        return self.part
+
+    def cancel(self):
+        raise AssertionError
+
+
+@pytest.mark.parametrize(("workers", "most"), [(1, 2), (3, 6), (None, 16)])
+def test_an_executor_is_given_two_parts_for_each_worker(whole, workers, most):
+    executor = Counting()
+    assert bits(run(SWEEP, chunk=400, executor=executor, workers=workers)) == whole
+    assert executor.most == most
+    assert executor.open == 0
+
+
 @given(st.lists(st.integers(1, 2999), min_size=1, max_size=4, unique=True), st.randoms())
 @settings(max_examples=20)
 def test_parts_add_up_to_the_same_in_any_order(cuts, order):
