@@ -112,7 +112,13 @@ class Cells:
         return np.array([self.side, *self.shape], np.int64)
 
     def place(self) -> Array:
-        """Corner (m) and cubes per m, (4,)."""
+        """Place of the cubes, for the kernel.
+
+        Returns
+        -------
+        place : (4,) ndarray
+            Corner, m, and cubes per m.
+        """
         return np.array([*self.corner, 1.0 / self.resolution])
 
     def centres(self) -> Array:

@@ -21,8 +21,7 @@ Measure = Literal["reach", "manipulability"]
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """Question to many configurations: how many of them take the tool into each cell, and the
-    best measure there.
+    """Question to many configurations: which cells they reach, and how well.
 
     Attributes
     ----------
@@ -60,7 +59,13 @@ class Sweep:
         return self.measure != "reach"
 
     def describe(self) -> dict[str, object]:
-        """Plain data of all that the result depends on but the arm."""
+        """Plain data of all that the result depends on but the arm.
+
+        Returns
+        -------
+        document : dict
+            Names, numbers and lists of numbers, in SI units.
+        """
         cells = self.cells
         return {
             "base": self.chain.base,
@@ -75,7 +80,13 @@ class Sweep:
         }
 
     def key(self) -> str:
-        """SHA-256 of the sweep, its arm and the formulas that run: equal keys have equal results."""
+        """SHA-256 of the sweep, its arm and the formulas that run: equal keys have equal results.
+
+        Returns
+        -------
+        key : str
+            Hexadecimal digits.
+        """
         chain = self.chain
         text = json.dumps([self.describe(), source_hash.LOADED], sort_keys=True)
         whole = hashlib.sha256(text.encode())

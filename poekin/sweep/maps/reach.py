@@ -54,8 +54,18 @@ def reach(  # noqa: PLR0913 - options by keyword
         Whether cells keep the best manipulability of the pose, and its configuration, too.
     seed : int, default 0
         Seed of the configurations.
-    chunk, workers, executor, store, resume, progress
-        As in `run`.
+    chunk : int, default 4194304
+        Number of samples that are run, and kept, at a time.
+    workers : int, optional
+        Number of threads or of an executor's workers, as in `run`.
+    executor : object, optional
+        Runs the parts instead of threads, as in `run`.
+    store : path, optional
+        Directory that keeps each part as soon as it is done.
+    resume : bool, default False
+        Whether parts that the store holds are taken from there.
+    progress : callable, optional
+        Called as progress(samples done, samples of all).
 
     Returns
     -------

@@ -92,8 +92,9 @@ class SweepMap(Result):
 
     @property
     def new_cell_chance(self) -> float:
-        """Chance that a further configuration would fall into a cell that is empty so far, by the
-        share of cells with one sample (Good 1953).
+        """Chance that a further configuration would fall into an empty cell, no unit.
+
+        It is the share of the samples that are alone in their cell (Good 1953).
         """
         return np.count_nonzero(self.counts == 1) / self.samples.count
 
