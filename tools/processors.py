@@ -30,7 +30,8 @@ from numpy._core import _multiarray_umath as numpy_core  # pyright: ignore[repor
 
 ROOT = Path(__file__).resolve().parent.parent
 ROOMS = tuple(
-    f"tests/{room}" for room in ("groups", "formulas", "engine", "model", "analysis", "solve")
+    f"tests/{room}"
+    for room in ("groups", "formulas", "engine", "model", "analysis", "solve", "sweep")
 )
 AVX, FMA, AVX512 = (
     frozenset({"AVX"}),
