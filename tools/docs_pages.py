@@ -160,7 +160,8 @@ def workspace() -> Made:
     figure = chain.plot(UR5E)
     points = found.cells.centres()[found.reached]
     shares = found.capability[found.reached]
-    figure.axes[0].scatter(*points.T, c=shares, s=2, cmap="viridis", alpha=0.5, linewidths=0)
+    layer = np.abs(points[:, 1]) <= 0.5 * found.cells.resolution
+    figure.axes[0].scatter(*points[layer].T, c=shares[layer], s=12, linewidths=0, depthshade=False)
     fit(figure, points)
     return pk.view(found), figure
 
