@@ -46,11 +46,11 @@ class BasePlacement(Result):
         Returns
         -------
         text : str
-            Line such as "candidate 7 of 100 reaches 12 of 12 poses; 31 reach all".
+            Line such as "candidate 7 (0 ... 99) reaches 12 of 12 poses; 31 reach all".
         """
         every = np.count_nonzero(self.reached == self.poses)
         return (
-            f"candidate {self.order[0]} of {len(self.order)} reaches {self.reached[0]} of {self.poses} poses; "
+            f"candidate {self.order[0]} (0 ... {len(self.order) - 1}) reaches {self.reached[0]} of {self.poses} poses; "
             f"{every} reach all"
         )
 

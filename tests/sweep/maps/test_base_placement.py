@@ -47,8 +47,7 @@ def test_more_poses_come_first_then_more_samples_then_the_given_order():
 
 def test_the_summary_says_the_best_and_how_many_serve():
     ranking = base_placement(MAP, places([0.4, 0.2, 0.3]), places([9, 0, 0], [0, 0, 0]))
-    if ranking.reached[0]:
-        assert ranking.summary() == "candidate 1 of 2 reaches 1 of 1 poses; 1 reach all"
+    assert ranking.summary() == "candidate 1 (0 ... 1) reaches 1 of 1 poses; 1 reach all"
     assert ranking.to_dict()["poses"] == 1
 
 
