@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..groups.arrays import Array
+from ..groups.blocks import angular_part, linear_part
+from ..groups.vectors import applied, norm
 from ..model.chain import Chain
 from ..model.readings.coupled import own_limits
 
@@ -44,17 +46,17 @@ def prismatic(chain: Chain) -> Marks:
 
 def direction(axes: Array, slides: Marks) -> Array:
     """Unit directions (n, 3) of axes, some of which are those of prismatic joints."""
-    return np.where(slides[:, None], axes[:, 3:], axes[:, :3])
+    return np.where(slides[:, None], linear_part(axes), angular_part(axes))
 
 
 def place(axes: Array) -> Array:
     """Points (..., 3) of axes (..., 6) that are nearest to the origin."""
-    return cross(axes[..., :3], axes[..., 3:])
+    return cross(angular_part(axes), linear_part(axes))
 
 
 def sine(w: Array, u: Array) -> float:
     """Sine of the angle between unit directions."""
-    return float(np.linalg.norm(cross(w, u)))
+    return norm(cross(w, u))
 
 
 def line_angle(w: Array, u: Array) -> float:
@@ -66,7 +68,7 @@ def line_angle(w: Array, u: Array) -> float:
 def distance_to_line(gap: Array, w: Array) -> float:
     """Distance (m) of a point from a line along w, `gap` from a point of the line."""
     across = gap - w * (w @ gap)
-    return float(np.linalg.norm(across))
+    return norm(across)
 
 
 def normal_length(w: Array, u: Array, gap: Array) -> float:
@@ -92,11 +94,6 @@ def wrapped(x: Array, turns: Marks) -> Array:
     """Values of joints, those of joints that turn within half a turn."""
     within = np.arctan2(np.sin(x), np.cos(x))
     return np.where(turns, within, x)
-
-
-def applied(M: Array, x: Array) -> Array:
-    """M x over the last axes, matrices (..., k, k) and vectors (..., k)."""
-    return (M @ x[..., None])[..., 0]
 
 
 def uncoupled_at_zero(chain: Chain) -> Chain:

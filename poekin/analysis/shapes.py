@@ -10,6 +10,7 @@ from itertools import combinations
 from typing import Literal
 
 from ..groups.arrays import Array
+from ..groups.blocks import angular_part
 from ..model.chain import Chain
 from ..results import Result
 from .amounts import amount
@@ -130,5 +131,5 @@ def _meeting(screws: Array) -> float:
     feet = place(screws)
     # Axes almost parallel meet far away, which is of no use: their meeting point stays near.
     point = nearest_point(screws, feet.mean(axis=0), 1e-3)
-    lines = zip(feet - point, screws[:, :3], strict=True)
+    lines = zip(feet - point, angular_part(screws), strict=True)
     return max(distance_to_line(gap, w) for gap, w in lines)

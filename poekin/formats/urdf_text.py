@@ -11,6 +11,7 @@ from typing import overload
 import numpy as np
 
 from ..errors import InputError, join_names, quote, safe_repr
+from ..groups.blocks import rotation_part, translation_part
 from ..model.chain import Chain
 from ..model.joint import Joint
 from ..model.kinematics.arm import Arm, chain_of
@@ -228,7 +229,7 @@ def _joint(joint: Joint) -> Iterator[str]:
     yield f"    <parent link={quote_attribute(joint.parent, 'link')}/>"
     yield f"    <child link={quote_attribute(joint.child, 'link')}/>"
     T = joint.origin
-    yield f'    <origin xyz="{_numbers(*T[:3, 3])}" rpy="{_numbers(*rpy.angles(T[:3, :3]))}"/>'
+    yield f'    <origin xyz="{_numbers(*translation_part(T))}" rpy="{_numbers(*rpy.angles(rotation_part(T)))}"/>'
     if kind not in ("fixed", "floating"):
         yield f'    <axis xyz="{_numbers(*joint.axis)}"/>'
     limit = _limit(joint)

@@ -14,6 +14,8 @@ from ..engine.kernels import chain_kernels
 from ..errors import ShapeError, quote
 from ..groups import se3
 from ..groups.arrays import Array
+from ..groups.blocks import translation_part
+from ..groups.vectors import norms
 from .checks import (
     bounds,
     coupling_matrix,
@@ -345,5 +347,5 @@ def _kind(rotates: float, slides: float) -> ScrewKind:
 
 def _reach(form: LocalForm) -> float:
     """Lengths between the joints, and 1 m for each joint that only slides; at least 1 m."""
-    lengths = np.linalg.norm(form.frames[:, :3, 3], axis=1).sum()
+    lengths = norms(translation_part(form.frames)).sum()
     return max(1.0, float(lengths + (form.rotates == 0).sum()))

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ..errors import InputError, PoseError, ShapeError, join_names, quote, safe_repr
 from ..formulas.lie import defect
 from ..groups.arrays import TOLERANCE, Array, numbers, poses, shaped
+from ..groups.blocks import rotation_part
 
 LONGEST = 1e100
 """The largest length [m] that is accepted: beyond it, squares of lengths are no numbers any more.
@@ -61,7 +62,7 @@ def one_pose(T: ArrayLike, what: str = "home") -> Array:
         # compiled code, and a robot is read without waiting for that.
         poses(T, what)
     if off > _EXACT:
-        U, _, V = np.linalg.svd(T[:3, :3])
+        U, _, V = np.linalg.svd(rotation_part(T))
         T[:3, :3] = U @ V
     T[3] = _LAST_ROW
     T += 0.0  # no negative zeros: equal poses have equal bytes

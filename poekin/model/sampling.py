@@ -49,6 +49,16 @@ def sampling_range(chain: ChainData) -> tuple[Array, Array]:
     return low, high
 
 
+def largest_slides(chain: ChainData) -> Array:
+    """Largest distance (n,) that each joint slides within `sampling_range`, m."""
+    low, high = sampling_range(chain)
+    C = chain.coupling
+    middle = low / 2 + high / 2
+    half = high / 2 - low / 2
+    farthest = np.abs(C @ middle + chain.offset) + np.abs(C) @ half
+    return np.abs(chain.local.slides) * farthest
+
+
 def _move_to_joint_limits(chain: ChainData, low: Array, high: Array) -> None:
     """Moves ranges of coordinates without limits to where the joints are in the middle of their own,
     where they do not reach that.

@@ -17,6 +17,8 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, ScrewError
 from ..groups.arrays import Array, element_name, shaped
+from ..groups.blocks import angular_part, linear_part
+from ..groups.vectors import norm
 from .checks import finite
 from .screw_rows.remedies import ROUNDED, UNIT
 from .screw_rows.unit_screws import pitch_of, unit_screws, with_pitches
@@ -191,9 +193,9 @@ def axis_of(screw: ArrayLike) -> Axis:
     [0. 0. 1.] [0.5 0.  0. ] 0.1
     """
     S = unit_screws(shaped(screw, (6,), "screw")[None])[0]
-    if not S[:3].any():
-        return Axis(S[3:], None, np.inf)
-    return Axis(S[:3], np.cross(S[:3], S[3:]), pitch_of(S))
+    if not angular_part(S).any():
+        return Axis(linear_part(S), None, np.inf)
+    return Axis(angular_part(S), np.cross(angular_part(S), linear_part(S)), pitch_of(S))
 
 
 def normalised(screws: ArrayLike, tolerance: float = ROUNDED) -> Array:
@@ -237,10 +239,10 @@ def normalised(screws: ArrayLike, tolerance: float = ROUNDED) -> Array:
     [0.       0.500011 0.866019]
     """
     S = shaped(finite(screws, "screws"), (6,), "screws").copy()
-    turns = np.linalg.norm(S[..., :3], axis=-1, keepdims=True)
+    turns = np.linalg.norm(angular_part(S), axis=-1, keepdims=True)
     sliding = turns <= UNIT
     S[..., :3] *= ~sliding
-    lengths = np.where(sliding, np.linalg.norm(S[..., 3:], axis=-1, keepdims=True), turns)
+    lengths = np.where(sliding, np.linalg.norm(linear_part(S), axis=-1, keepdims=True), turns)
     far = np.argwhere(np.abs(lengths - 1.0) > tolerance)
     if len(far):
         where = element_name("screws", far[0][:-1])
@@ -256,7 +258,7 @@ def _unit(axis: ArrayLike) -> Array:
     if z.ndim != 1 or not np.isfinite(z).all():
         raise InputError(f"axis: expected one finite vector (3,), got {z.tolist()}")
     z = z / max(np.abs(z).max(), np.finfo(float).tiny)
-    length = float(np.linalg.norm(z))
+    length = norm(z)
     if length == 0:
         raise ScrewError("axis: expected a direction, got the zero vector")
     return z / length

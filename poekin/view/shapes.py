@@ -7,12 +7,15 @@ Arrows, cylinders, spheres and capsules are turned about z from a profile; arcs 
 from __future__ import annotations
 
 from functools import cache
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..groups.arrays import Array
+from ..groups.blocks import rotation_part, translation_part
+from ..groups.vectors import norm, normalised
 from ..model.geometry.local import turned_least
 
 SHARP = 0.5
@@ -27,7 +30,7 @@ AROUND = 8
 
 def transformed(points: Array, T: Array) -> Array:
     """Points (..., 3) moved by a pose (4, 4)."""
-    return points @ T[:3, :3].T + T[:3, 3]
+    return points @ rotation_part(T).T + translation_part(T)
 
 
 class Surface(NamedTuple):
@@ -49,9 +52,14 @@ class Surface(NamedTuple):
 
 def merged(*parts: tuple[Array, np.ndarray]) -> Surface:
     """One surface of several; of lines likewise, whose pieces are pairs (k, 2) of vertices."""
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in parts[:-1])])
-    faces = [faces + start for (_, faces), start in zip(parts, starts, strict=True)]
-    return Surface(np.concatenate([vertices for vertices, _ in parts]), np.concatenate(faces))
+    start = 0
+    vertices = []
+    faces = []
+    for points, pieces in parts:
+        vertices.append(points)
+        faces.append(pieces + start)
+        start += len(points)
+    return Surface(np.concatenate(vertices), np.concatenate(faces))
 
 
 def creased(surface: Surface) -> Surface:
@@ -59,17 +67,35 @@ def creased(surface: Surface) -> Surface:
     that shades smoothly shades across flat edges only.
     """
     faces = surface.faces
-    a, b, c = (surface.vertices[faces[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    owners = np.tile(np.arange(len(faces)), 3)[np.lexsort(edges.T)]
-    first, second = owners.reshape(-1, 2).T
-    flat = np.einsum("ki,ki->k", normals[first], normals[second]) > SHARP
+    normals = _normals(surface)
+    first, second = _neighbours(faces)
+    cosines = np.einsum("ki,ki->k", normals[first], normals[second])
+    flat = cosines > SHARP
     patches = _joined(len(faces), first[flat], second[flat])
-    corners = np.stack([faces, np.broadcast_to(patches[:, None], faces.shape)], axis=-1)
-    kept, numbers = np.unique(corners.reshape(-1, 2), axis=0, return_inverse=True)
-    return Surface(surface.vertices[kept[:, 0]], numbers.reshape(-1, 3))
+    patch_of_corner = np.repeat(patches, 3)
+    corners = np.stack([faces.ravel(), patch_of_corner], axis=-1)
+    kept, numbers = np.unique(corners, axis=0, return_inverse=True)
+    vertices = surface.vertices[kept[:, 0]]
+    return Surface(vertices, numbers.reshape(-1, 3))
+
+
+def _normals(surface: Surface) -> Array:
+    """Unit normals (k, 3) of the faces, outwards."""
+    corners = surface.vertices[surface.faces]
+    a = corners[:, 0]
+    ab = corners[:, 1] - a
+    ac = corners[:, 2] - a
+    return normalised(np.cross(ab, ac))
+
+
+def _neighbours(faces: np.ndarray) -> np.ndarray:
+    """Two faces at each edge of a closed surface, (2, number of edges)."""
+    ahead = np.roll(faces, -1, axis=1)
+    edges = np.stack([faces.T.ravel(), ahead.T.ravel()], axis=1)
+    edges.sort(axis=1)
+    owners = np.tile(np.arange(len(faces)), 3)
+    by_edge = owners[np.lexsort(edges.T)]
+    return by_edge.reshape(-1, 2).T
 
 
 def _joined(count: int, first: np.ndarray, second: np.ndarray) -> np.ndarray:
@@ -101,15 +127,28 @@ def revolved(radii: ArrayLike, heights: ArrayLike, sides: int = SIDES) -> Surfac
         Its volume is that of the profile turned about z, times
         sin(2π / sides) / (2π / sides).
     """
-    turn = 2 * np.pi / sides * np.arange(sides)
-    circle = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-    r = np.asarray(radii, float)[1:-1, None, None]
+    turn = _turns(sides)
+    r = np.asarray(radii, float)[1:-1, None]
     z = np.asarray(heights, float)
-    h = np.broadcast_to(z[1:-1, None, None], (len(r), sides, 1))
-    rings = np.concatenate([r * circle, h], axis=-1).reshape(-1, 3)
-    ends = [[0.0, 0.0, z[0]], [0.0, 0.0, z[-1]]]
-    vertices = np.concatenate([rings, ends])
-    return creased(Surface(vertices, _between_rings(len(r), sides)))
+    rings = np.empty((len(r), sides, 3))
+    rings[..., 0] = r * np.cos(turn)
+    rings[..., 1] = r * np.sin(turn)
+    rings[..., 2] = z[1:-1, None]
+    ends = np.zeros((2, 3))
+    ends[:, 2] = z[[0, -1]]
+    return _skin(rings, ends)
+
+
+def _turns(sides: int) -> Array:
+    """Angles (sides,) of a circle's corners, rad."""
+    return 2 * np.pi / sides * np.arange(sides)
+
+
+def _skin(rings: Array, ends: Array) -> Surface:
+    """Closed surface over rings (n, sides, 3) of vertices, from one end point (2, 3) to the other."""
+    count, sides, _ = rings.shape
+    vertices = np.concatenate([rings.reshape(-1, 3), ends])
+    return creased(Surface(vertices, _between_rings(count, sides)))
 
 
 def _between_rings(rings: int, sides: int) -> np.ndarray:
@@ -118,39 +157,43 @@ def _between_rings(rings: int, sides: int) -> np.ndarray:
     ahead = (here + 1) % sides
     below = sides * np.arange(rings - 1)[:, None]
     above = below + sides
-    lower = np.stack([below + here, below + ahead, above + ahead], axis=-1)
-    upper = np.stack([below + here, above + ahead, above + here], axis=-1)
     first = np.full(sides, rings * sides)
     last = first + 1
     top = (rings - 1) * sides
-    caps = [
-        np.stack([first, ahead, here], axis=-1),
-        np.stack([last, top + here, top + ahead], axis=-1),
+    corners = [
+        (below + here, below + ahead, above + ahead),
+        (below + here, above + ahead, above + here),
+        (first, ahead, here),
+        (last, top + here, top + ahead),
     ]
-    return np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3), *caps])
+    faces = [np.stack(three, axis=-1) for three in corners]
+    return np.concatenate([group.reshape(-1, 3) for group in faces])
 
 
 def tube(points: ArrayLike, radius: float) -> Surface:
     """Tube of a radius along a curve through points (n, 3) that does not turn back on itself."""
     points = np.asarray(points, float)
-    tangents = np.gradient(points, axis=0)
-    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+    tangents = normalised(np.gradient(points, axis=0))
     across = turned_least(tangents[0])[:, 0]
+    turn = _turns(AROUND)[:, None]
+    cosine = np.cos(turn)
+    sine = np.sin(turn)
     rings = []
-    turn = 2 * np.pi / AROUND * np.arange(AROUND)[:, None]
     for point, tangent in zip(points, tangents, strict=True):
         across = across - tangent * (tangent @ across)  # carried along without twist
-        across = across / np.linalg.norm(across)
-        circle = np.cos(turn) * across + np.sin(turn) * np.cross(tangent, across)
+        across = across / norm(across)
+        aside = np.cross(tangent, across)
+        circle = cosine * across + sine * aside
         rings.append(point + radius * circle)
-    vertices = np.concatenate([*rings, points[[0, -1]]])
-    return creased(Surface(vertices, _between_rings(len(points), AROUND)))
+    return _skin(np.array(rings), points[[0, -1]])
 
 
 def cylinder(radius: float, length: float, sides: int = SIDES) -> Surface:
     """Cylinder about z, its middle at the origin."""
     half = 0.5 * length
-    return revolved([0, radius, radius, 0], [-half, -half, half, half], sides)
+    radii = [0, radius, radius, 0]
+    heights = [-half, -half, half, half]
+    return revolved(radii, heights, sides)
 
 
 def cone(radius: float, length: float, sides: int = SIDES) -> Surface:
@@ -160,36 +203,49 @@ def cone(radius: float, length: float, sides: int = SIDES) -> Surface:
 
 def sphere(radius: float = 1.0, sides: int = 32) -> Surface:
     """Sphere about the origin, its vertices on it; half as many rings as sides."""
-    turn = np.linspace(0, np.pi, sides // 2 + 1)
+    profile = _half_circle(radius, np.linspace(0, np.pi, sides // 2 + 1))
+    return revolved(profile.radii, profile.heights, sides)
+
+
+class _Profile(NamedTuple):
+    """Distances from z and heights of a profile's corners, m."""
+
+    radii: Array
+    heights: Array
+
+
+def _half_circle(radius: float, turn: Array) -> _Profile:
+    """Profile of a sphere at angles from 0 to π from below."""
     radii = radius * np.sin(turn)
     radii[[0, -1]] = 0.0
-    return revolved(radii, -radius * np.cos(turn), sides)
+    return _Profile(radii, -radius * np.cos(turn))
 
 
 def capsule(start: ArrayLike, end: ArrayLike, radius: float, sides: int = SIDES) -> Surface:
     """All points within a radius of the segment between two points; a sphere where they are one."""
     start = np.asarray(start, float)
     way = np.asarray(end, float) - start
-    length = float(np.linalg.norm(way))
+    length = norm(way)
     if length <= 1e-6 * radius:
         ball = sphere(radius, sides)
         return Surface(ball.vertices + start, ball.faces)
     quarter = np.linspace(0, 0.5 * np.pi, sides // 4 + 1)
     turn = np.concatenate([quarter, 0.5 * np.pi + quarter])  # the equator twice, at both ends
-    radii = radius * np.sin(turn)
-    radii[[0, -1]] = 0.0
-    heights = -radius * np.cos(turn) + np.repeat([0.0, length], len(quarter))
-    return revolved(radii, heights, sides).placed(start, way / length)
+    profile = _half_circle(radius, turn)
+    apart = np.repeat([0.0, length], len(quarter))
+    surface = revolved(profile.radii, profile.heights + apart, sides)
+    return surface.placed(start, way / length)
 
 
 def box(sizes: ArrayLike) -> Surface:
     """Box of sizes (3,) along x, y and z, its middle at the origin."""
-    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    corners = np.array(list(product((-0.5, 0.5), repeat=3)))
     faces = [
         [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
         [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3],
     ]  # fmt: skip
-    return creased(Surface(0.5 * corners * np.asarray(sizes, float), np.array(faces)))
+    vertices = corners * np.asarray(sizes, float)
+    return creased(Surface(vertices, np.array(faces)))
 
 
 def arrow(
@@ -201,15 +257,18 @@ def arrow(
 ) -> Surface:
     """Arrow from the origin along z: radius of its shaft, radius and length of its head, m."""
     neck = length - head_length
-    return revolved([0, shaft, shaft, head, 0], [0, 0, neck, neck, length], sides)
+    radii = [0, shaft, shaft, head, 0]
+    heights = [0, 0, neck, neck, length]
+    return revolved(radii, heights, sides)
 
 
 def double_arrow(length: float, shaft: float, head: float, head_length: float) -> Surface:
     """Arrow along z with a head at both ends, its middle at the origin: a prismatic joint."""
     half = 0.5 * length
     neck = half - head_length
+    radii = [0, head, shaft, shaft, head, 0]
     heights = [-half, -neck, -neck, neck, neck, half]
-    return revolved([0, head, shaft, shaft, head, 0], heights)
+    return revolved(radii, heights)
 
 
 def arc_arrow(radius: float, thickness: float, angle: float = 1.5 * np.pi) -> Surface:
@@ -237,16 +296,20 @@ def helix(radius: float, thickness: float, rise: float) -> Surface:
 
 def helix_points(radius: float, angle: float, rise: float) -> Array:
     """Points (n, 3) of a helix about z from the x axis on, 24 a turn; of an arc where rise is 0."""
-    count = max(2, int(np.ceil(24 * angle / (2 * np.pi))) + 1)
+    steps = int(np.ceil(24 * angle / (2 * np.pi)))
+    count = max(2, steps + 1)
     turn = np.linspace(0.0, angle, count)
+    x = radius * np.cos(turn)
+    y = radius * np.sin(turn)
     height = np.linspace(0.0, rise, count)
-    return np.stack([radius * np.cos(turn), radius * np.sin(turn), height], axis=-1)
+    return np.stack([x, y, height], axis=-1)
 
 
 def frame_axes(pose: Array, length: float) -> tuple[Surface, Surface, Surface]:
     """Arrows along x, y and z of a frame at a pose (4, 4), m."""
     one = _axis_arrow().scaled(length)
-    x, y, z = (one.placed(pose[:3, 3], pose[:3, k]) for k in range(3))
+    origin = translation_part(pose)
+    x, y, z = (one.placed(origin, axis) for axis in rotation_part(pose).T)
     return x, y, z
 
 

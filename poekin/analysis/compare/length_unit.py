@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...groups.vectors import norm
 from ...model.chain import Chain
 from ..axis_lines import prismatic, uncoupled_at_zero
 from .alignment.lines import lines
@@ -74,4 +75,4 @@ def rescaled(chain: Chain, factor: float) -> Chain:
 
 def _spread(chain: Chain) -> float:
     """Root sum of squares of the distances (m) of all axes to the point nearest to them."""
-    return float(np.linalg.norm(lines(uncoupled_at_zero(chain)).places))
+    return norm(lines(uncoupled_at_zero(chain)).places)

@@ -13,6 +13,8 @@ import numpy as np
 
 from ...groups import se3, so3
 from ...groups.arrays import Array
+from ...groups.blocks import linear_part
+from ...groups.vectors import norm
 from ...model.chain import Chain
 from ..axis_lines import Tolerances, sine, wrapped
 from .alignment.lines import Lines, lines
@@ -64,7 +66,7 @@ class _Sphere(NamedTuple):
 
     def misfit(self, A: Array, dA: Array) -> tuple[Array, Array]:
         """Residuals (m, 1) of axes A (m, 6), and derivatives (m, 1, r) from those of A."""
-        apart = A[:, 3:] - self.centre
+        apart = linear_part(A) - self.centre
         distances = (apart * apart).sum(1, keepdims=True)
         derivatives = 2.0 * apart[:, None] @ dA[:, 3:]
         return distances - self.square, derivatives
@@ -90,7 +92,7 @@ def held_positions(
     beyond it count as well.
     """
     places = lines(long).places
-    size = max(float(np.linalg.norm(places)), tol.position)
+    size = max(norm(places), tol.position)
     # In units of the arm's own size, so that lengths and angles count alike.
     unit = 1.0 / size
     ours = lines(rescaled(long, unit))

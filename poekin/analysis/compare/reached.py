@@ -8,6 +8,8 @@ import numpy as np
 
 from ...groups import so3
 from ...groups.arrays import Array
+from ...groups.blocks import rotation_part, translation_part
+from ...groups.vectors import norms
 from ...model.chain import Chain
 from ...model.sampling import sampling_range
 from ..axis_lines import Tolerances
@@ -60,11 +62,11 @@ def _sampled(a: Chain, b: Chain, reading: Hypothesis) -> tuple[Array, Array]:
 
 def pose_differences(ours: Array, theirs: Array) -> tuple[Array, Array]:
     """Distances (m) and angles (rad) between two rows of poses (m, 4, 4)."""
-    back = ours[:, :3, :3].swapaxes(1, 2)
-    turns = so3.log(back @ theirs[:, :3, :3])
-    gaps = ours[:, :3, 3] - theirs[:, :3, 3]
-    moved = np.linalg.norm(gaps, axis=1)
-    turned = np.linalg.norm(turns, axis=1)
+    back = rotation_part(ours).swapaxes(1, 2)
+    turns = so3.log(back @ rotation_part(theirs))
+    gaps = translation_part(ours) - translation_part(theirs)
+    moved = norms(gaps)
+    turned = norms(turns)
     return moved, turned
 
 
@@ -76,9 +78,9 @@ def _bounds(pair: Sides, a: Chain, b: Chain) -> Tolerances:
     # what is behind it.
     placed = pair.a.places + pair.a.centre
     places = placed[~slides]
-    end = a.home[:3, 3]
+    end = translation_part(a.home)
     steps = np.diff([*places, end], axis=0)
-    lengths = np.linalg.norm(steps, axis=1)
+    lengths = norms(steps)
     ranges = (np.abs(sampling_range(chain)) for chain in (a, b))
     largest = [size.max(0) for size in ranges]
     most = np.max(largest, axis=0)

@@ -8,21 +8,22 @@ import numpy as np
 
 from ...errors import quote
 from ...groups.arrays import Array
+from ...groups.blocks import angular_part, linear_part
 
 
 def motion_words(V: Array) -> str:
     """A twist (6,) in base axes at the tool's origin, as the end of a sentence: "turning about the
     base's z axis".
     """
-    w = np.linalg.norm(V[:3])
-    v = np.linalg.norm(V[3:])
+    w = np.linalg.norm(angular_part(V))
+    v = np.linalg.norm(linear_part(V))
     # 2 cm per rad, and 1/50 rad per m, are too little to be told
     if v <= 0.02 * w:
-        return f"turning about {_direction(V[:3])}"
+        return f"turning about {_direction(angular_part(V))}"
     if w <= 0.02 * v:
-        return f"moving along {_direction(V[3:])}"
-    turning = f"turning about {_direction(V[:3])}"
-    moving = f"moving along {_direction(V[3:])}"
+        return f"moving along {_direction(linear_part(V))}"
+    turning = f"turning about {_direction(angular_part(V))}"
+    moving = f"moving along {_direction(linear_part(V))}"
     if v > w:
         return f"{moving} while {turning} by {w / v:.3g} rad per m"
     return f"{turning} while its origin is {moving} by {v / w:.3g} m per rad"

@@ -13,6 +13,7 @@ import numpy as np
 from ...checks import choice, is_real, positive
 from ...errors import InputError, quote, safe_repr
 from ...groups.arrays import Array
+from ...groups.vectors import norm
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...model.kinematics.arm import Arm
@@ -244,7 +245,7 @@ def singularity(
     if rank < g < len(J):
         U = _with_lost_motions(U, s, J, H, g)
     slope = np.einsum("r,rij,i->j", U[:, last], H, V[last])
-    steep = float(np.linalg.norm(slope))
+    steep = norm(slope)
     motions = np.array([_positive(_twist(u, part, L)) for u in U.T])
     return Singularity(
         singular=rank < g,

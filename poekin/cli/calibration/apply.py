@@ -12,6 +12,8 @@ from typer import Argument, Option
 from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import own_urdf
 from ...groups import se3, so3
+from ...groups.blocks import rotation_part, translation_part
+from ...groups.vectors import norm
 from ...model.joint import Joint
 from ...model.robot import Robot
 from ...solve.calibration.apply import apply
@@ -95,5 +97,5 @@ def _change(before: Joint, after: Joint) -> Change:
     a = np.array(before.axis)
     b = np.array(after.axis)
     tilt = math.atan2(np.linalg.norm(np.cross(a, b)), a @ b)
-    turn = float(np.linalg.norm(so3.log(relative[:3, :3])))
-    return Change(before.name, float(np.linalg.norm(relative[:3, 3])), max(turn, tilt))
+    turn = norm(so3.log(rotation_part(relative)))
+    return Change(before.name, norm(translation_part(relative)), max(turn, tilt))

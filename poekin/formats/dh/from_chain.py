@@ -14,6 +14,8 @@ from ...checks import REQUIRED, whole
 from ...errors import InputError, quote
 from ...groups import se3
 from ...groups.arrays import ROUNDOFF, Array
+from ...groups.blocks import translation_part
+from ...groups.vectors import norm
 from ...model.chain import Chain
 from ...model.geometry.normals import (
     Normal,
@@ -171,9 +173,7 @@ def from_chain(
         # A joint that turns about an axis off by delta turns what is behind it by at most 2 delta
         # more or less, and moves the tool by that times its distance: the lengths behind, and the
         # metre that each slide is measured over.
-        away = (
-            sum(lengths) + float(np.linalg.norm(table.tool[:3, 3])) + chain.kinds.count("prismatic")
-        )
+        away = sum(lengths) + norm(translation_part(table.tool)) + chain.kinds.count("prismatic")
         bound += 2 * sum(walk.dropped) * max(1.0, away / chain.reach)
     error = _error(chain, table, samples, seed)
     return FromChain(
@@ -221,7 +221,7 @@ class _Walk:
             x = normal.x
             z = z2
             o = add(normal.foot, scale(normal.a, normal.x))
-        along = dot(subtract(exact(chain.home[:3, 3]), o), z)
+        along = dot(subtract(exact(translation_part(chain.home)), o), z)
         self.turns.append((0.0, float(along)))
         self.gauge.append(
             f"last frame: on the axis of {self._name(n - 1)}, nearest to the tool, theta = 0"

@@ -10,6 +10,7 @@ from ...algebra import compose
 from ...formulas import dh
 from ...groups import se3
 from ...groups.arrays import Array
+from ...groups.blocks import rotation_part, translation_part
 from ...model.chain import Chain
 from ...model.joint import Joint
 from ...model.robot import Robot
@@ -102,8 +103,8 @@ def _link(
 
 
 def _twelve(T: Array) -> tuple[float, ...]:
-    R = T[:3, :3].ravel()
-    return (*R.tolist(), *T[:3, 3].tolist())
+    R = rotation_part(T).ravel()
+    return (*R.tolist(), *translation_part(T).tolist())
 
 
 def to_robot(table: Table) -> Robot:

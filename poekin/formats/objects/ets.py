@@ -9,6 +9,7 @@ import numpy as np
 from ...errors import InputError, safe_repr
 from ...groups import se3
 from ...groups.arrays import Array, shaped
+from ...groups.blocks import angular_part, linear_part
 from ...model.chain import Chain
 from ...model.checks import one_pose
 from ...model.joint import Joint, JointKind, Mimic
@@ -161,7 +162,7 @@ class _Tree:
         coordinate = f"q{step.coordinate}"
         name = free_name(coordinate, self.used)
         mimic = None if name == coordinate else Mimic(coordinate)
-        axis = step.screw[:3] if step.kind == "revolute" else step.screw[3:]
+        axis = angular_part(step.screw) if step.kind == "revolute" else linear_part(step.screw)
         joint = Joint(
             name,
             step.kind,

@@ -11,7 +11,9 @@ from ...engine.kernels import group_kernels
 from ...errors import PoekinError, PoseError
 from ...groups import euler, se3, so3
 from ...groups.arrays import Array, map_kernel, poses
+from ...groups.blocks import rotation_part, translation_part
 from ...groups.so3.exp_log import exp_of_vectors
+from ...groups.vectors import norms
 from ...model.kinematics.analytic import quaternion_wxyz
 from .layout import PoseLayout
 
@@ -42,7 +44,7 @@ def to_poses(
     given = rows.shape[1] // 4
     T[good] = np.eye(4)
     T[good, :given] = rows[good].reshape(-1, given, 4)
-    T[good, :3, 3] = _in_metres(T[good, :3, 3], layout)
+    T[good, :3, 3] = _in_metres(translation_part(T[good]), layout)
     try:
         return poses(T)
     except PoekinError:
@@ -54,13 +56,13 @@ def to_poses(
 def to_rows(T: Array, layout: PoseLayout) -> Array:
     """Rows (N, k) of poses (N, 4, 4); of the two quaternions of a rotation the one with w >= 0."""
     scale = 1000.0 if layout.length == "mm" else 1.0
-    R = T[:, :3, :3]
+    R = rotation_part(T)
     if layout.rotation == "matrix":
         size = len(layout.columns)
         rows = T.copy()
         rows[:, :3, 3] *= scale
         return rows[:, : size // 4].reshape(len(T), size) + 0.0
-    p = scale * T[:, :3, 3]
+    p = scale * translation_part(T)
     return np.concatenate([p, _rotation_numbers(R, layout)], axis=1) + 0.0
 
 
@@ -81,7 +83,7 @@ def _rotations(
     degrees = layout.angle == "deg"
     if layout.rotation in _WXYZ_OF:
         with np.errstate(over="ignore"):  # of numbers whose squares are none
-            size = np.linalg.norm(numbers, axis=1)
+            size = norms(numbers)
         for i in np.flatnonzero(good & ~(np.abs(size - 1) <= NORM)).tolist():
             raise PoseError(
                 f"{where(i)}: the quaternion's length is {size[i]:.6g}, expected 1 within {NORM:g}"

@@ -11,6 +11,8 @@ import numpy as np
 
 from ...groups import se3, so3
 from ...groups.arrays import Array
+from ...groups.blocks import angular_part, linear_part, rotation_part, translation_part
+from ...groups.vectors import norm
 from ...model.chain import Chain
 from ...model.joint import Joint
 
@@ -88,10 +90,10 @@ def _axes(chain: Chain) -> list[JointAxis]:
         strict=True,
     ):
         if turns:
-            w = screw[:3]
-            axes.append(JointAxis(w, np.cross(w, screw[3:]), float(slides)))
+            w = angular_part(screw)
+            axes.append(JointAxis(w, np.cross(w, linear_part(screw)), float(slides)))
         else:
-            axes.append(JointAxis(screw[3:], None, 0.0))
+            axes.append(JointAxis(linear_part(screw), None, 0.0))
     return axes
 
 
@@ -108,19 +110,19 @@ def _moved(
     w = axis.direction
     G = H.copy()
     if axis.foot is not None:
-        G[:3, 3] = axis.foot + w * (w @ (H[:3, 3] - axis.foot))
+        G[:3, 3] = axis.foot + w * (w @ (translation_part(H) - axis.foot))
     cosine = float(np.hypot(*joint.origin[:2, 0]))
     if turn == "axes" or (turn == "auto" and cosine < LOCKED):
-        G[:3, :3] = above[:3, :3] @ joint.origin[:3, :3]
-        direction = (G[:3, :3].T @ w).tolist()
+        G[:3, :3] = rotation_part(above) @ rotation_part(joint.origin)
+        direction = (rotation_part(G).T @ w).tolist()
         return replace(joint, axis=direction, pitch=axis.pitch), G
     joint = _pointing(joint, axis, G)
-    z = G[:3, :3] @ joint.axis
+    z = rotation_part(G) @ joint.axis
     off = np.cross(z, w)
-    sine = float(np.linalg.norm(off))
+    sine = norm(off)
     if sine:
         angle = math.atan2(sine, float(z @ w))
-        G[:3, :3] = so3.exp(off / sine * angle) @ G[:3, :3]
+        G[:3, :3] = so3.exp(off / sine * angle) @ rotation_part(G)
     return joint, G
 
 
@@ -131,7 +133,7 @@ def _pointing(
 ) -> Joint:
     """Joint whose axis, in a link at G, points as the new one does, not against it."""
     direction = joint.axis
-    if (G[:3, :3] @ direction) @ axis.direction < 0:
+    if (rotation_part(G) @ direction) @ axis.direction < 0:
         direction = tuple(-a for a in direction)
     return replace(joint, axis=direction, pitch=axis.pitch)
 
@@ -142,8 +144,8 @@ def tip_off_axis(chain: Chain, direction: Sequence[float]) -> float:
     """
     axis = _axes(chain)[-1]
     w = axis.direction
-    sine = float(np.linalg.norm(np.cross(chain.home[:3, :3] @ direction, w)))
+    sine = norm(np.cross(rotation_part(chain.home) @ direction, w))
     if axis.foot is None:
         return sine
-    aside = np.cross(chain.home[:3, 3] - axis.foot, w)
-    return max(sine, float(np.linalg.norm(aside)) / chain.reach)
+    aside = np.cross(translation_part(chain.home) - axis.foot, w)
+    return max(sine, norm(aside) / chain.reach)

@@ -11,6 +11,7 @@ from ...checks import choice
 from ...errors import InputError, join_names, quote
 from ...groups import so3
 from ...groups.arrays import Array
+from ...groups.blocks import rotation_part, translation_part
 from ...model.chain import Chain
 from ...model.joint import Joint
 from ...model.provenance import Source, warn
@@ -195,8 +196,8 @@ def _tool(robot: Robot, last: Joint, origin: Array) -> Joint:
         new, moved = "new ", ""
     warn(
         f"link {quote(last.child)} stays on the axis of joint {quote(last.name)}, and the chain's tip is"
-        f" {np.linalg.norm(origin[:3, 3]) * 1e3:.3g} mm and"
-        f" {math.degrees(np.linalg.norm(so3.log(origin[:3, :3]))):.3g}° from it: the tip is the {new}link"
+        f" {np.linalg.norm(translation_part(origin)) * 1e3:.3g} mm and"
+        f" {math.degrees(np.linalg.norm(so3.log(rotation_part(origin)))):.3g}° from it: the tip is the {new}link"
         f" {quote(link)}, fixed to it{moved}"
     )
     return Joint(name, "fixed", last.child, link, origin)

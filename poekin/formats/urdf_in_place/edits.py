@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...groups.arrays import Array
+from ...groups.blocks import rotation_part, translation_part
 from ...model.joint import MOVING, Joint
 from .. import rpy
 from ..poses import pose_rows
@@ -80,9 +81,11 @@ def apply_edits(content: bytes, edits: Sequence[Edit]) -> bytes:
 def _origin(text: JointText, new: Array, still: Still) -> Iterator[Numbers]:
     """Attributes of a joint's <origin> that change, with their numbers."""
     old = text.joint.origin
-    if _apart(new[:3, 3], old[:3, 3]) > still.length:
-        yield Numbers("xyz", new[:3, 3].tolist(), old[:3, 3].tolist(), still.length)
-    if _apart(new[:3, :3], old[:3, :3]) <= still.angle:
+    if _apart(translation_part(new), translation_part(old)) > still.length:
+        yield Numbers(
+            "xyz", translation_part(new).tolist(), translation_part(old).tolist(), still.length
+        )
+    if _apart(rotation_part(new), rotation_part(old)) <= still.angle:
         return
     tag = text.span.tags.get("origin")
     written = {} if tag is None else tag.attributes
@@ -96,7 +99,7 @@ def _origin(text: JointText, new: Array, still: Still) -> Iterator[Numbers]:
     turns: Sequence[float] = _ZERO
     if "rpy" in written:
         turns = [float(x) for x in written["rpy"].value.split()]
-    yield Numbers("rpy", rpy.nearest_angles(new[:3, :3], turns), turns, still.angle)
+    yield Numbers("rpy", rpy.nearest_angles(rotation_part(new), turns), turns, still.angle)
 
 
 def _apart(a: Sequence[float] | Array, b: Sequence[float] | Array) -> float:

@@ -9,6 +9,8 @@ import numpy as np
 
 from ...errors import InputError, ModelError, escape_unprintable, join_names, quote
 from ...groups.arrays import Array
+from ...groups.blocks import rotation_part, translation_part
+from ...groups.vectors import norm
 from ...model.joint import MOVING, Joint
 from ...model.provenance import Source
 from ...model.robot import Robot
@@ -52,7 +54,7 @@ def edit(
             f"{place}: cannot be edited in place: the tags of its joints have different prefixes"
         )
     poses = robot.fk(np.zeros(robot.dof))
-    size = max(1.0, *(float(np.linalg.norm(T[:3, 3])) for T in poses.values()))
+    size = max(1.0, *(norm(translation_part(T)) for T in poses.values()))
     still = Still(STILL, STILL * size)
     quaternions = urdf.reads_quaternions(spans.version)
     wanted = {joint.name: joint for joint in robot.joints}
@@ -122,8 +124,8 @@ def _addition(
             quote_attribute(each, "name").encode("ascii", "xmlcharrefreplace").decode()
             for each in (joint.name, joint.parent, joint.child)
         )
-        xyz = shortest(T[:3, 3])
-        turns = shortest(rpy.angles(T[:3, :3]))
+        xyz = shortest(translation_part(T))
+        turns = shortest(rpy.angles(rotation_part(T)))
         lines = [
             (outer, f"<{p}link name={child}/>"),
             (outer, f'<{p}joint name={name} type="fixed">'),
@@ -152,8 +154,8 @@ def _check(
         T = wanted[joint.child]
         off = (np.abs(found[joint.child] - T) / scale).max()
         if joint.kind in (*MOVING, "planar"):
-            axis = found[joint.child][:3, :3] @ axes[joint.name]
-            off = max(off, np.abs(axis - T[:3, :3] @ joint.axis).max())
+            axis = rotation_part(found[joint.child]) @ axes[joint.name]
+            off = max(off, np.abs(axis - rotation_part(T) @ joint.axis).max())
         if not off <= EXACT:
             raise ModelError(
                 f"{place}: the text with joint {quote(joint.name)} changed does not read as the robot, by"

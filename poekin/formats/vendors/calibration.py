@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
+from ...groups.vectors import norms
 from ...model.chain import Chain
 from ...model.checks import one_pose, read_only
 from ...model.joint import Joint
@@ -191,7 +192,7 @@ def _unit(axes: ArrayLike | None, n: int) -> Array:
     found = numbers(axes, "axes").copy()
     if found.shape != (n, 3):
         raise ShapeError(f"axes: expected shape ({n}, 3), one axis a joint, got {found.shape}")
-    off = np.abs(np.linalg.norm(found, axis=1) - 1.0)
+    off = np.abs(norms(found) - 1.0)
     for i in np.flatnonzero(~(off <= _UNIT)):
         raise InputError(f"axes[{i}]: expected a unit vector, got {found[i].tolist()}")
     return found

@@ -9,6 +9,8 @@ import numpy as np
 
 from ...groups import se3, so3
 from ...groups.arrays import Array
+from ...groups.blocks import angular_part, directions, linear_part, rotation_part, translation_part
+from ...groups.vectors import norm
 from ...model.chain import Chain
 from ...model.robot import Robot
 
@@ -60,14 +62,14 @@ def origins(robot: Robot, nominal: Chain) -> Array:
     poses = robot.fk(np.zeros(robot.dof))
     base = se3.inverse(poses[nominal.base])
     ends = [robot.joint(name) for name in nominal.joint_names]
-    return np.array([(base @ poses[joint.child])[:3, 3] for joint in ends]).reshape(-1, 3)
+    return np.array([translation_part(base @ poses[joint.child]) for joint in ends]).reshape(-1, 3)
 
 
 def deviations(nominal: Chain, chain: Chain, places: Array) -> list[Deviation]:
     """Deviations of a chain's axes, as `axis_deviations`, and of its tip, at zero."""
-    apart = float(np.linalg.norm(chain.home[:3, 3] - nominal.home[:3, 3]))
-    turn = so3.log(nominal.home[:3, :3].T @ chain.home[:3, :3])
-    tip = Deviation(nominal.tip, apart, float(np.linalg.norm(turn)))
+    apart = norm(translation_part(chain.home) - translation_part(nominal.home))
+    turn = so3.log(rotation_part(nominal.home).T @ rotation_part(chain.home))
+    tip = Deviation(nominal.tip, apart, norm(turn))
     return [*axis_deviations(nominal, chain, places), tip]
 
 
@@ -81,15 +83,15 @@ def axis_deviations(nominal: Chain, chain: Chain, places: Array) -> list[Deviati
     found = []
     rows = zip(nominal.joint_names, nominal.screws, chain.screws, places, strict=True)
     for name, screw, other, place in rows:
-        w = other[:3]
+        w = angular_part(other)
         turns = bool(w.any())
-        axis = screw[:3] if screw[:3].any() else screw[3:]
+        axis = directions(screw)
         apart = 0.0
         if turns:
-            off = place - np.cross(w, other[3:])
-            apart = float(np.linalg.norm(off - w * (w @ off)))
+            off = place - np.cross(w, linear_part(other))
+            apart = norm(off - w * (w @ off))
         else:
-            w = other[3:]
-        angle = math.atan2(float(np.linalg.norm(np.cross(axis, w))), float(axis @ w))
+            w = linear_part(other)
+        angle = math.atan2(norm(np.cross(axis, w)), float(axis @ w))
         found.append(Deviation(name, apart, angle))
     return found

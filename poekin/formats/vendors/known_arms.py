@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...groups.arrays import Array
+from ...groups.blocks import translation_part
 from ...model.chain import Chain
 from .. import dh, rpy
 from .calibration import FactoryCalibration
@@ -210,7 +211,7 @@ def _known(name: str, calibration: FactoryCalibration) -> KnownArm:
     T = np.eye(4)
     for pose in calibration.poses:
         T = T @ pose
-        places.append(T[:3, 3])
+        places.append(translation_part(T))
     return KnownArm(name, calibration, calibration.to_chain(), np.array(places))
 
 

@@ -26,6 +26,7 @@ import numpy as np
 
 from ...checks import choice
 from ...errors import InputError, ModelError, PoekinError, join_names, quote
+from ...groups.blocks import rotation_part, translation_part
 from .. import rpy as angles
 from ..text import xml, yaml_text
 from ..text.atomic_write import FilePath, write_whole
@@ -281,14 +282,14 @@ def make_text(calibration: FactoryCalibration, *, rpy: RpyAxes = "fixed") -> str
     for i, (entry, T) in enumerate(entries.items()):
         # R of moving axes, turned round, is R of fixed axes with all signs turned: (Rx Ry Rz)^T =
         # Rz' Ry' Rx'.
-        turns = angles.angles(T[:3, :3])
+        turns = angles.angles(rotation_part(T))
         if rpy == "moving":
-            roll, pitch, yaw = angles.angles(T[:3, :3].T)
+            roll, pitch, yaw = angles.angles(rotation_part(T).T)
             turns = (-roll + 0.0, -pitch + 0.0, -yaw + 0.0)
         lines.append(f"  {entry}:")
         lines += [
             f"    {key}: {float(value)!r}"
-            for key, value in zip(KEYS, (*T[:3, 3], *turns), strict=True)
+            for key, value in zip(KEYS, (*translation_part(T), *turns), strict=True)
         ]
         if flexiv and i < len(calibration.axes):
             lines.append(f"    axis: {' '.join(map(repr, calibration.axes[i].tolist()))}")

@@ -9,6 +9,8 @@ import numpy as np
 from ...errors import ModelError, quote, suggest
 from ...groups import se3
 from ...groups.arrays import Array
+from ...groups.blocks import rotation_part
+from ...groups.vectors import norm
 from .. import rpy as angles
 from ..text.numbers import real
 from ..text.yaml_text import MappingNode, TextNode
@@ -72,7 +74,7 @@ def pose(
     x, y, z, *turns = (_number(node.items[key], f"{name}: {key}", place) for key in KEYS)
     if rpy == "fixed":
         return angles.pose((x, y, z), turns)
-    R = angles.pose((0.0, 0.0, 0.0), [-a for a in turns])[:3, :3].T
+    R = rotation_part(angles.pose((0.0, 0.0, 0.0), [-a for a in turns])).T
     return se3.pose(R, (x, y, z))
 
 
@@ -93,7 +95,7 @@ def axis(
     numbers = np.array([value for value in values if value is not None])
     length = 0.0
     if len(values) == len(numbers) == 3:
-        length = float(np.linalg.norm(numbers))
+        length = norm(numbers)
     if not 0.0 < length < math.inf:
         raise ModelError(
             f"{place}:{node.items[AXIS].line}: {name}: axis: expected three numbers, as 0 1 0, got {quote(said)}"

@@ -20,6 +20,7 @@ import numpy as np
 from ...algebra import add, cross, dot, scale, subtract
 from ...errors import quote
 from ...groups.arrays import Array
+from ...groups.blocks import translation_part
 from ..chain_data import ChainData
 from .normals import (
     BASE,
@@ -77,7 +78,7 @@ class Walk:
             self._step(*axis_near(S, kind == "prismatic", self.given[-1].o))
         x = exact(chain.home[:3, 0])
         z = unit(exact(chain.home[:3, 2]))
-        p = exact(chain.home[:3, 3])
+        p = exact(translation_part(chain.home))
         self._step(z, nearest_on_line(p, z, self.given[-1].o))
         self._end(frame_on_line(unit(across(x, z)), z, p))
 

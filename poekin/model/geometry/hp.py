@@ -13,6 +13,7 @@ import numpy as np
 from ...algebra import add, cross, scale, subtract
 from ...errors import InputError, quote
 from ...groups.arrays import Array
+from ...groups.blocks import angular_part, rotation_part, translation_part
 from ..chain_data import ChainData
 from .normals import (
     BASE,
@@ -71,12 +72,12 @@ def to_hp(chain: ChainData) -> HPForm:
     if chain.offset.any():
         chain = rezeroed(chain.replace(offset=np.zeros(chain.dof)), chain.offset)
     with digits():
-        points = [BASE.o, *_points(chain), exact(chain.home[:3, 3])]
+        points = [BASE.o, *_points(chain), exact(translation_part(chain.home))]
         steps = [[float(x) for x in subtract(b, a)] for a, b in pairwise(points)]
     return HPForm(
-        chain.screws[:, :3].copy(),
+        angular_part(chain.screws).copy(),
         np.array(steps),
-        chain.home[:3, :3].copy(),
+        rotation_part(chain.home).copy(),
     )
 
 

@@ -19,9 +19,10 @@ from ...algebra import dot, subtract
 from ...checks import is_real
 from ...errors import InputError, safe_repr
 from ...groups.arrays import ROUNDOFF, Array
+from ...groups.blocks import directions
 from ...results import Result
 from ..chain_data import AnyChain, ChainData
-from ..sampling import sampling_range
+from ..sampling import largest_slides
 from .axis_walk import Walk
 from .normals import Frame, digits, length, nearest_on_line
 
@@ -104,7 +105,7 @@ def _bounds(
     """
     given = _nearest(chain, given)
     exact = _nearest(chain, exact)
-    travel = [0.0, *_travel(chain).tolist()]
+    travel = [0.0, *largest_slides(chain).tolist()]
     behind = position = rotation = 0.0
     for i in reversed(range(len(given) - 1)):
         link = given[i + 1].seen_by(given[i])
@@ -117,14 +118,6 @@ def _bounds(
         behind += float(length(link.o)) + travel[i]
     rounding = 8 * ROUNDOFF * len(given)  # of the numbers that the new screws are written in
     return position + rounding * max(behind, chain.reach), rotation + rounding
-
-
-def _travel(chain: ChainData) -> Array:
-    """Largest distance (n,) that each joint slides within the ranges of the coordinates."""
-    low, high = sampling_range(chain)
-    C = chain.coupling
-    middle = np.abs(C @ (low / 2 + high / 2) + chain.offset)
-    return np.abs(chain.local.slides) * (middle + np.abs(C) @ (high / 2 - low / 2))
 
 
 def _nearest(chain: ChainData, frames: list[Frame]) -> list[Frame]:
@@ -143,10 +136,11 @@ def _settled(chain: ChainData, screws: Array, home: Array) -> bool:
     or parallel axis.
     """
     for old, new in ((chain.screws, screws), (chain.home, home)):
-        size = max(1.0, chain.reach, float(np.abs(old).max(initial=0)))
-        if (np.abs(old - new) > 16 * ROUNDOFF * size).any():
-            return False
-        if (np.isin(new, (-1.0, 0.0, 1.0)) & (old != new)).any():
+        largest = float(np.abs(old).max(initial=0))
+        size = max(1.0, chain.reach, largest)
+        far = np.abs(old - new) > 16 * ROUNDOFF * size
+        made_exact = np.isin(new, (-1.0, 0.0, 1.0)) & (old != new)
+        if far.any() or made_exact.any():
             return False
     # Axes that are parallel in the new screws must be so in the old ones.
     parallel: dict[bytes, bytes] = {}
@@ -156,5 +150,6 @@ def _settled(chain: ChainData, screws: Array, home: Array) -> bool:
 
 def _way(S: Array) -> bytes:
     """The direction of a screw's axis to the last bit, whichever way it points."""
-    z = S[:3] if S[:3].any() else S[3:]
-    return (z * np.sign(z[np.flatnonzero(z)[0]]) + 0.0).tobytes()
+    z = directions(S)
+    leading = z[np.flatnonzero(z)[0]]
+    return (z * np.sign(leading) + 0.0).tobytes()

@@ -16,6 +16,7 @@ import numpy as np
 from ... import algebra
 from ...engine.kernels import chain_kernels
 from ...groups.arrays import Array
+from ...groups.blocks import angular_part, linear_part, rotation_part, translation_part
 from ..checks import read_only
 
 
@@ -47,24 +48,24 @@ def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
     """
     n = len(screws)
     frames = np.tile(np.eye(4), (n + 1, 1, 1))
-    turning = np.any(screws[:, :3], axis=1)
+    turning = np.any(angular_part(screws), axis=1)
     rotates = turning.astype(float)
     slides = np.where(turning, pitches, 1.0)
-    feet = np.stack(algebra.cross(screws[:, :3].T, screws[:, 3:].T), axis=1)
+    feet = np.stack(algebra.cross(angular_part(screws).T, linear_part(screws).T), axis=1)
     R = np.eye(3)
     origin = np.zeros(3)
     for i, S in enumerate(screws):
-        z = S[3:]
+        z = linear_part(S)
         there = origin
         if turning[i]:
-            z = S[:3]
+            z = angular_part(S)
             there = feet[i] + z * (z @ (origin - feet[i]))
         frames[i, :3, :3] = turned_least(R.T @ z)
         frames[i, :3, 3] = R.T @ (there - origin)
-        R = R @ frames[i, :3, :3]
+        R = R @ rotation_part(frames[i])
         origin = there
-    frames[n, :3, :3] = R.T @ home[:3, :3]
-    frames[n, :3, 3] = R.T @ (home[:3, 3] - origin)
+    frames[n, :3, :3] = R.T @ rotation_part(home)
+    frames[n, :3, 3] = R.T @ (translation_part(home) - origin)
     return LocalForm(read_only(frames), read_only(rotates), read_only(slides))
 
 
@@ -95,8 +96,8 @@ def kernel_table(form: LocalForm, coupling: Array | None, offset: Array) -> Arra
     if coupling is not None:
         width = chain_kernels.COUPLING + coupling.shape[1]
     table = np.zeros((n + 1, width))
-    table[:, :9] = form.frames[:, :3, :3].reshape(n + 1, 9)
-    table[:, 9:12] = form.frames[:, :3, 3]
+    table[:, :9] = rotation_part(form.frames).reshape(n + 1, 9)
+    table[:, 9:12] = translation_part(form.frames)
     table[:n, chain_kernels.ROTATES] = form.rotates
     table[:n, chain_kernels.SLIDES] = form.slides
     if coupling is not None:

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
+from ...groups.blocks import angular_part, linear_part
 
 Vector = tuple[Decimal, Decimal, Decimal]
 ZERO = Decimal(0)
@@ -100,8 +101,8 @@ def axis_near(S: np.ndarray, slides: bool, origin: Vector) -> tuple[Vector, Vect
     """Direction of a screw's axis and its point nearest to `origin`, which is that itself where a
     joint only slides.
     """
-    w = exact(S[:3])
-    v = exact(S[3:])
+    w = exact(angular_part(S))
+    v = exact(linear_part(S))
     if slides:
         return unit(v), origin
     z = unit(w)

@@ -19,6 +19,7 @@ import numpy as np
 from ...algebra import add, cross, dot, scale, subtract
 from ...engine.straight_line.specialise import Pose, Structure
 from ...engine.straight_line.trace import FOLD_TOLERANCE
+from ...groups.blocks import rotation_part, translation_part
 from ..chain_data import ChainData
 from .local import turned_least
 from .normals import (
@@ -208,6 +209,6 @@ def _in_local(chain: ChainData, k: int, T: Pose) -> Pose:
         local = local @ link
     R = np.array(T[:9]).reshape(3, 3)
     o = np.array(T[9:])
-    seen = local[:3, :3].T @ R
-    there = local[:3, :3].T @ (o - local[:3, 3])
+    seen = rotation_part(local).T @ R
+    there = rotation_part(local).T @ (o - translation_part(local))
     return (*seen.ravel().tolist(), *there.tolist())

@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...groups.arrays import Array
+from ...groups.blocks import angular_part, linear_part, rotation_part
+from ...groups.vectors import norms
 
 UNIT = 1e-9
 """Difference from 1 that is accepted of the length of a screw's direction."""
@@ -47,8 +49,8 @@ _MENDS = (
 def length_errors(S: Array) -> Array:
     """Difference from 1 (n,) of each row's |omega|, or of |v| where omega is 0 to 1e-9."""
     with np.errstate(over="ignore", invalid="ignore"):
-        turns = np.linalg.norm(S[:, :3], axis=1)
-        return np.abs(np.where(turns > UNIT, turns, np.linalg.norm(S[:, 3:], axis=1)) - 1.0)
+        turns = norms(angular_part(S))
+        return np.abs(np.where(turns > UNIT, turns, norms(linear_part(S))) - 1.0)
 
 
 def other_reading(S: Array, what: str) -> str:
@@ -76,7 +78,7 @@ def matrix_among(values: Any) -> str:
     except (TypeError, ValueError):
         return ""
     matrix = np.asarray(values[index], float)
-    skew = not (matrix[:3, :3] + matrix[:3, :3].T).any() and not matrix[3].any()
+    skew = not (rotation_part(matrix) + rotation_part(matrix).T).any() and not matrix[3].any()
     remedy = "is no screw; the home pose is an argument of its own"
     if skew:
         remedy = "is [A] of a twist: pass pk.se3.vee of it"

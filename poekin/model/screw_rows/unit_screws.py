@@ -7,6 +7,8 @@ from numpy.typing import ArrayLike
 
 from ...errors import ScrewError, ShapeError, quote
 from ...groups.arrays import Array, numbers
+from ...groups.blocks import angular_part, linear_part
+from ...groups.vectors import norm, norms
 from ..checks import LONGEST, finite
 from .remedies import UNIT, matrix_among, other_reading
 
@@ -36,7 +38,7 @@ def unit_screws(
         if not part.any():
             part = row[3:]
             name = "v, where omega = 0,"
-        length = float(np.linalg.norm(part))
+        length = norm(part)
         if abs(length - 1.0) > UNIT:
             remedy = other_reading(S, what) or other_reading(row, f"{what}[{i}]")
             raise ScrewError(
@@ -75,8 +77,8 @@ def _rows(screws: ArrayLike, what: str) -> Array:
 
 def pitch_of(screw: Array) -> float:
     """omega . v of a unit screw (6,) with omega != 0, in m per rad; exactly 0 where it is rounding."""
-    pitch = float(screw[:3] @ screw[3:])
-    if abs(pitch) <= _NO_PITCH * max(1.0, float(np.linalg.norm(screw[3:]))):
+    pitch = float(angular_part(screw) @ linear_part(screw))
+    if abs(pitch) <= _NO_PITCH * max(1.0, norm(linear_part(screw))):
         return 0.0
     return pitch
 
@@ -91,7 +93,7 @@ def pitches_of(
     Raises: ShapeError; ScrewError for a pitch of a prismatic joint or one above 1e100; InputError
     for one that is not finite.
     """
-    turns = np.any(screws[:, :3], axis=1)
+    turns = np.any(angular_part(screws), axis=1)
     if given is None:
         return np.array(
             [pitch_of(S) if turning else 0.0 for S, turning in zip(screws, turns, strict=True)]
@@ -120,10 +122,10 @@ def with_pitches(screws: Array, pitches: Array) -> Array:
     a pitch. A screw that has its pitch already stays as it is, to the last bit, and so does a
     prismatic one. omega . v is then within 4e-15 max(1 m, |v|) of the pitch.
     """
-    w = screws[:, :3]
-    v = screws[:, 3:]
+    w = angular_part(screws)
+    v = linear_part(screws)
     missing = pitches - (w * v).sum(1)
-    far = np.maximum(1.0, np.linalg.norm(v, axis=1))
+    far = np.maximum(1.0, norms(v))
     put = np.any(w, axis=1) & (np.abs(missing) > _NO_PITCH * far)
     out = screws.copy()
     out[put, 3:] += missing[put, None] * w[put]

@@ -8,6 +8,7 @@ import numpy as np
 
 from ... import svg
 from ...groups.arrays import Array
+from ...groups.blocks import rotation_part, translation_part
 from ..chain_data import ChainData
 from ..coordinates import one_configuration
 from ..kinematics import pose_jacobian
@@ -24,7 +25,7 @@ def plot(chain: ChainData, q: Any, size: tuple[float, float]) -> Any:
         values = one_configuration(q, chain.q_names)
     frames = pose_jacobian.joint_poses(chain, values)
     tool = pose_jacobian.fk(chain, values)
-    points = np.array([np.zeros(3), *frames[:, :3, 3], tool[:3, 3]])
+    points = np.array([np.zeros(3), *translation_part(frames), translation_part(tool)])
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     half = max(np.ptp(points, axis=0).max() / 2, 0.05)
 
@@ -46,7 +47,7 @@ def plot(chain: ChainData, q: Any, size: tuple[float, float]) -> Any:
 
 def _draw_axis(axes: Any, frame: Array, kind: str, number: int, half: float) -> None:
     """A joint: its axis on both sides of the frame's origin, an arrow along +z, and its symbol."""
-    origin = frame[:3, 3]
+    origin = translation_part(frame)
     z = frame[:3, 2]
     line = np.stack([origin - half * z, origin + half * z], axis=1)
     axes.plot(*line, _OF_KIND[kind], color=svg.INK, linewidth=0.8)
@@ -57,6 +58,6 @@ def _draw_axis(axes: Any, frame: Array, kind: str, number: int, half: float) -> 
 
 def _draw_frame(axes: Any, T: Array, name: str, length: float) -> None:
     """A frame: x, y and z as arrows, and its name."""
-    for direction, color in zip(T[:3, :3].T, AXES_COLORS, strict=True):
-        axes.quiver(*T[:3, 3], *(length * direction), color=color, linewidth=1.6)
-    axes.text(*T[:3, 3], f"  {svg.label(name, 20)}", fontsize=8, va="top")
+    for direction, color in zip(rotation_part(T).T, AXES_COLORS, strict=True):
+        axes.quiver(*translation_part(T), *(length * direction), color=color, linewidth=1.6)
+    axes.text(*translation_part(T), f"  {svg.label(name, 20)}", fontsize=8, va="top")

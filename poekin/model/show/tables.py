@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
+from ...groups.blocks import angular_part, linear_part
 from ...html_page import caption, row, table
 from ..chain_data import ChainData
 from ..joint import Joint
@@ -22,7 +23,15 @@ def chain_table(chain: ChainData) -> str:
     limits = dict(zip(chain.q_names, chain.limits, strict=True))
     for name, kind, screw in zip(chain.joint_names, chain.kinds, chain.screws, strict=True):
         bounds = limits.get(name, UNLIMITED)
-        rows.append((name, kind, numbers(screw[:3]), numbers(screw[3:]), _interval(bounds)))
+        rows.append(
+            (
+                name,
+                kind,
+                numbers(angular_part(screw)),
+                numbers(linear_part(screw)),
+                _interval(bounds),
+            )
+        )
     words = f"Chain {chain.base} → {chain.tip}, space screws at q = 0, reach {chain.reach:.3g} m"
     return _with_caption(words, _OF_CHAIN, rows)
 

@@ -13,6 +13,8 @@ import numpy as np
 from ...engine.kernels import ik_codes as codes
 from ...errors import InputError
 from ...groups.arrays import Array
+from ...groups.blocks import translation_part
+from ...groups.vectors import norms
 from ...model.chain import Chain
 from ...model.readings.coupled import beyond_own_limits
 from ..joint_units import bounds
@@ -135,11 +137,11 @@ def distance_beyond_reach(
     if task.name == "rotation" or not len(chain.screws):
         return nothing
     frames = chain.local.frames
-    offsets = targets[:, :3, 3] - frames[0, :3, 3]
+    offsets = translation_part(targets) - translation_part(frames[0])
     if task.name == "planar":
         heights = offsets @ task.axis
         offsets = offsets - np.outer(heights, task.axis)
-    links = np.linalg.norm(frames[1:, :3, 3], axis=1)
+    links = norms(translation_part(frames[1:]))
     length = links.sum()
     ratios = np.abs(chain.coupling)
     farthest = np.abs(limits).max(axis=1, initial=0.0)

@@ -7,6 +7,7 @@ import numpy as np
 from ...errors import InputError, join_names
 from ...groups import so3
 from ...groups.arrays import Array
+from ...groups.vectors import norms
 from ...model.chain import Chain
 from .joint_domain import JointDomain
 
@@ -33,7 +34,7 @@ def plane_normal(chain: Chain, domain: JointDomain) -> Array:
     first = turns[turning][0]
     opposite = turns @ first < 0
     turns[opposite] *= -1
-    sines = np.linalg.norm(np.cross(turns, first), axis=1)
+    sines = norms(np.cross(turns, first))
     slanted = sines > PARALLEL
     if slanted.any():
         raise _no_plane(

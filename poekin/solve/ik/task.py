@@ -15,6 +15,7 @@ from ...engine.kernels import ik_codes as codes
 from ...errors import InputError, PoseError, safe_repr
 from ...formulas.inverse import pose_error
 from ...groups.arrays import Array, poses, shaped
+from ...groups.blocks import rotation_part
 from ...model.chain import Chain
 
 TASKS: dict[str, tuple[int, int, Part]] = {
@@ -78,7 +79,7 @@ class Task:
         if self.name == "planar":
             pose_error.keep_in_plane(self.axis, columns, J.shape[-1])
         else:
-            a = T[..., :3, :3] @ self.axis
+            a = rotation_part(T) @ self.axis
             pose_error.remove_turn_about(np.moveaxis(a, -1, 0), columns, J.shape[-1])
         return np.moveaxis(columns, (0, 1), (-2, -1))
 

@@ -14,6 +14,8 @@ import numpy as np
 
 from ...engine.jit import threads
 from ...groups.arrays import Array
+from ...groups.blocks import translation_part
+from ...groups.vectors import norms
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ...model.sampling import sampling_range
@@ -229,8 +231,8 @@ class Target(NamedTuple):
 
 def _size(chain: Chain) -> float:
     """Length of all links together (m), 1 where all are points."""
-    offsets = chain.local.frames[1:, :3, 3]
-    links = np.linalg.norm(offsets, axis=1)
+    offsets = translation_part(chain.local.frames[1:])
+    links = norms(offsets)
     return float(links.sum()) or 1.0
 
 

@@ -10,6 +10,8 @@ from typing import Literal
 import numpy as np
 
 from ...groups.arrays import Array
+from ...groups.blocks import angular_part, linear_part
+from ...groups.vectors import norm
 from ...model.chain_data import ChainData
 
 FamilyKind = Literal["meeting", "parallel"]
@@ -142,9 +144,9 @@ def _rank(family: Family, n: int) -> int:
 
 def meeting_point(screws: Array) -> Array:
     """The point (3,) that is nearest to revolute axes (k, 6), in least squares."""
-    w = screws[:, :3]
+    w = angular_part(screws)
     across = np.eye(3) - w[:, :, None] * w[:, None]
-    feet = np.cross(w, screws[:, 3:])
+    feet = np.cross(w, linear_part(screws))
     start = feet.mean(axis=0)
     # Axes almost parallel meet far away: what they leave free stays near.
     right = (across @ (feet - start)[..., None]).ravel()
@@ -153,16 +155,16 @@ def meeting_point(screws: Array) -> Array:
 
 
 def _foot(S: Array) -> Array:
-    return np.cross(S[:3], S[3:])
+    return np.cross(angular_part(S), linear_part(S))
 
 
 def _distance(S: Array, point: Array) -> float:
     """Distance of a point from a revolute axis."""
-    return float(np.linalg.norm(np.cross(S[:3], point) + S[3:]))
+    return norm(np.cross(angular_part(S), point) + linear_part(S))
 
 
 def _sine(w: Array, u: Array) -> float:
-    return float(np.linalg.norm(np.cross(w, u)))
+    return norm(np.cross(w, u))
 
 
 def _angle(w: Array, u: Array) -> float:

@@ -6,6 +6,8 @@ import numpy as np
 
 from ...groups import se3
 from ...groups.arrays import Array
+from ...groups.blocks import angular_part, linear_part
+from ...groups.vectors import norm
 from ...model.chain import Chain
 from ..ik_all.structure import EXACT
 
@@ -16,7 +18,7 @@ def parallel(chain: Chain, i: int) -> bool:
         return False
     w = chain.screws[i, :3]
     u = chain.screws[i + 1, :3]
-    return float(np.linalg.norm(np.cross(w, u))) <= EXACT
+    return norm(np.cross(w, u)) <= EXACT
 
 
 def intersecting(chain: Chain, i: int) -> bool:
@@ -47,6 +49,6 @@ def _slides(chain: Chain, i: int) -> bool:
 
 def _common_normal(A: Array, B: Array) -> float:
     """Length of the common normal of two axes, m."""
-    normal = np.cross(A[:3], B[:3])
-    moment = A[:3] @ B[3:] + B[:3] @ A[3:]
-    return abs(float(moment)) / float(np.linalg.norm(normal))
+    normal = np.cross(angular_part(A), angular_part(B))
+    moment = angular_part(A) @ linear_part(B) + angular_part(B) @ linear_part(A)
+    return abs(float(moment)) / norm(normal)

@@ -11,7 +11,9 @@ from ...checks import choice
 from ...errors import ShapeError
 from ...groups import se3, so3
 from ...groups.arrays import Array, numbers, poses
+from ...groups.blocks import angular_part, linear_part, rotation_part, translation_part
 from ...groups.so3.exp_log import exp_of_vectors
+from ...groups.vectors import norms
 
 Path = Literal["line", "screw"]
 
@@ -101,12 +103,12 @@ def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
     [0.0, 0.25, 0.5]
     """
     T_s0, T_s1, s = _together(T_s0, T_s1, s)
-    R_0 = _exact(T_s0)[..., :3, :3]
-    R_1 = _exact(T_s1)[..., :3, :3]
+    R_0 = rotation_part(_exact(T_s0))
+    R_1 = rotation_part(_exact(T_s1))
     T = T_s0.copy()
     R_01 = np.swapaxes(R_0, -1, -2) @ R_1
     w = so3.log(R_01)
-    way = T_s1[..., :3, 3] - T_s0[..., :3, 3]
+    way = translation_part(T_s1) - translation_part(T_s0)
     turned = exp_of_vectors(s[..., None] * w)
     T[..., :3, :3] = R_0 @ turned
     T[..., :3, 3] += s[..., None] * way
@@ -195,12 +197,12 @@ def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: Path = "line") -> Arra
     start = _exact(T_s0)
     end = _exact(T_s1)
     xi = se3.log(se3.inverse(start) @ end)
-    way = end[..., :3, 3] - start[..., :3, 3]
+    way = translation_part(end) - translation_part(start)
     if along == "screw":
-        way = xi[..., 3:]
+        way = linear_part(xi)
     lengths = [
-        np.linalg.norm(way, axis=-1),
-        np.linalg.norm(xi[..., :3], axis=-1),
+        norms(way),
+        norms(angular_part(xi)),
     ]
     return np.stack(lengths, axis=-1)
 
@@ -233,7 +235,7 @@ def _exact(T: Array) -> Array:
     more together.
     """
     T = T.copy()
-    w = so3.log(T[..., :3, :3])
+    w = so3.log(rotation_part(T))
     T[..., :3, :3] = exp_of_vectors(w)
     return T
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
+from ...groups.vectors import norm
 from ...model.kinematics.compiled import CompiledChain
 from ...model.readings.coupled import WITHIN
 from ...results import Progress
@@ -119,7 +120,7 @@ class Follower:
         for turn in range(ROUNDS):
             for q0 in self._solutions(k, turn, last):
                 if not any(np.abs(way.rows[0] - q0).max() < 1e-6 for way in ways):
-                    jump = 0.0 if last is None else float(np.linalg.norm(q0 - last))
+                    jump = 0.0 if last is None else norm(q0 - last)
                     ways.append(self._way(k, q0, jump))
             self._race(ways, last is None)
             found = max(ways, key=lambda way: (way.done, -way.jump), default=found)

@@ -9,6 +9,7 @@ import numpy as np
 from ...errors import FileError, quote
 from ...formats.visuals.of_robot import visuals_of
 from ...formats.visuals.visual import LeftOut, Visual
+from ...groups.blocks import translation_part
 from ...model.robot import Robot
 from .. import shapes
 from ..nodes import Attachment, Triangles
@@ -162,5 +163,5 @@ def _farthest(visual: Visual, parts: tuple[MeshPart, ...]) -> float:
     """Bound on the coordinates of a shape in its link's frame."""
     farthest = max(float(np.abs(part.vertices).max(initial=0.0)) for part in parts)
     if visual.T_mesh is not None:
-        farthest += float(np.abs(visual.T_mesh[:3, 3]).max())
-    return farthest * _largest(visual) + float(np.abs(visual.T_link_visual[:3, 3]).max())
+        farthest += float(np.abs(translation_part(visual.T_mesh)).max())
+    return farthest * _largest(visual) + float(np.abs(translation_part(visual.T_link_visual)).max())

@@ -11,6 +11,7 @@ from ...checks import whole
 from ...errors import InputError, join_names, quote
 from ...formats.visuals.visual import LeftOut
 from ...groups.arrays import Array
+from ...groups.vectors import norm
 from ...model.chain import Chain
 from ...model.joint import FREE
 from ...model.kinematics.arm import chain_of
@@ -145,7 +146,7 @@ def arm_size(arm: ArmGeometry, q: Array, bodies: Iterable[Triangles] = ()) -> fl
         bounds = np.stack([body.vertices.min(axis=0), body.vertices.max(axis=0)], axis=-1)
         corners = np.stack(np.meshgrid(*bounds), axis=-1).reshape(-1, 3)
         points.append(transformed(corners, T[body.attachment.link]))
-    diagonal = float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
+    diagonal = norm(np.ptp(np.concatenate(points), axis=0))
     return diagonal if diagonal > POINT else 1.0
 
 

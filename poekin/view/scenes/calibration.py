@@ -9,6 +9,7 @@ import numpy as np
 
 from ...analysis.compare.compare import compare
 from ...groups.arrays import Array
+from ...groups.vectors import norm, norms
 from ...solve.calibration.calibration import Calibration
 from ...solve.calibration.model.residual_vectors import ResidualVectors
 from ...solve.calibration.report import changes
@@ -52,7 +53,7 @@ def calibration_scene(found: Calibration) -> Scene:
     nodes = second_nodes(second, chain_geometry(own), {}, (), scene.size)
     words = [changes.sentence(found), *found.warnings]
     if vectors is not None and len(vectors.places):
-        lengths = np.linalg.norm([vectors.before, vectors.after], axis=-1)
+        lengths = norms(np.array([vectors.before, vectors.after]))
         nine_of_ten = float(np.quantile(lengths, 0.9))
         k = visible_factor(nine_of_ten, scene.size, (1000.0, *STEPS))
         nodes += _residuals(vectors, k, scene.size)
@@ -91,7 +92,7 @@ def _residuals(vectors: ResidualVectors, k: float, size: float) -> Iterator[Node
     """Measured points, and arrows from them to where the two arms have them, k times as long."""
     chosen = evenly(len(vectors.places), MOST)
     measured = (vectors.places - vectors.after)[chosen]
-    lengths = np.linalg.norm(vectors.before[chosen], axis=1)
+    lengths = norms(vectors.before[chosen])
     points = Attachment("cloud", "second", 0, name="measured points")
     yield Cloud(points, measured, 0.006 * size, lengths)
     of_arms: tuple[tuple[Array, Role, str], ...] = (
@@ -108,7 +109,7 @@ def _arrows(starts: Array, ways: Array, size: float) -> Triangles | None:
     """Arrows from points along vectors, as one surface; None where all have no length."""
     surfaces = []
     for start, way in zip(starts, ways, strict=True):
-        length = float(np.linalg.norm(way))
+        length = norm(way)
         if length < 1e-4 * size:
             continue
         thick = min(0.003 * size, 0.1 * length)

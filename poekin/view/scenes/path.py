@@ -9,6 +9,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...groups.arrays import Array
+from ...groups.blocks import translation_part
 from ...model.robot import Robot
 from ...solve.path.path_events import PathEvent
 from ...solve.path.path_result import PathResult
@@ -53,7 +54,7 @@ def path_scene(path: PathResult, robot: Robot | None = None) -> Scene:
         raise InputError("view: a path with at least one finite pose expected")
     stage = make_stage(path.chain, path.q[known[0]], robot)
     points = np.full((len(path.q), 3), np.nan)
-    points[known] = path.chain.fk(path.q[known])[:, :3, 3]
+    points[known] = translation_part(path.chain.fk(path.q[known]))
     targets = path.solution.target
     frames: list[Node] = []
     if targets is not None:

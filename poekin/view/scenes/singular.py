@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-import numpy as np
-
 from ...analysis.dexterity.messages import motion_words
 from ...analysis.dexterity.singularity import Singularity
 from ...groups.arrays import Array
+from ...groups.blocks import angular_part, linear_part, translation_part
+from ...groups.vectors import norm
 from ...model.robot import Robot
 from ..nodes import Label, Node, Role, Triangles
 from ..scene import Scene
@@ -39,7 +39,7 @@ def singularity_scene(found: Singularity, robot: Robot | None = None) -> Scene:
         at the tip: along the translation, and along the axis of the rotation.
     """
     stage = make_stage(found.chain, found.q, robot)
-    tip = found.chain.fk(found.q)[:3, 3]
+    tip = translation_part(found.chain.fk(found.q))
     lost = found.singular_subspace if found.singular else found.singular_direction[None]
     arrows = [node for twist in lost for node in _arrows(twist, found.length, tip, stage)]
     # in place of the page's own arrow, which is of what the tip moves worst as it stands
@@ -53,11 +53,11 @@ def _arrows(twist: Array, length: float, tip: Array, stage: Stage) -> Iterator[N
     """Arrows of a unit twist at the tip: its translation by length, and its rotation."""
     words = motion_words(twist)
     parts: tuple[tuple[Array, Role, str], ...] = (
-        (twist[3:] / length, "marked", "lost translation"),
-        (twist[:3], "angular", "lost rotation"),
+        (linear_part(twist) / length, "marked", "lost translation"),
+        (angular_part(twist), "angular", "lost rotation"),
     )
     for part, role, label in parts:
-        share = float(np.linalg.norm(part))
+        share = norm(part)
         if share < SMALL:
             continue
         attachment = stage.attachment("singular", role, f"{label}: {words}")

@@ -9,6 +9,7 @@ import numpy as np
 from ...analysis.amounts import Unit, amount
 from ...errors import InputError
 from ...groups.arrays import Array
+from ...groups.blocks import translation_part
 from ...model.chain import Chain
 from ...model.robot import Robot
 from ...solve.ik.solution import Solution
@@ -37,7 +38,7 @@ def target_nodes(stage: Stage, poses: Array) -> list[Node]:
     """Frames at targets, the word "target" beside a single one."""
     nodes = pose_nodes(stage, poses, 0.1 * stage.size, "target")
     if len(poses) == 1:
-        place = poses[0, :3, 3] + 0.03 * stage.size
+        place = translation_part(poses[0]) + 0.03 * stage.size
         nodes.append(Label(stage.attachment("path", "path", "target"), place, "target"))
     return nodes
 

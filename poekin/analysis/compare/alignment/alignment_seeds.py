@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 from ....groups import se3
 from ....groups.arrays import Array
+from ....groups.blocks import angular_part, linear_part, rotation_part, translation_part
+from ....groups.vectors import dots
 from ...axis_lines import Marks, cross, place
 from .alignments import Alignments, Rows
 from .lines import Lines, Sides
@@ -110,16 +112,16 @@ def turns(screw: Array, axis: Array, target: Array) -> Array:
 
     The second is NaN where there is but one; 0 where none is better.
     """
-    w = screw[..., :3]
-    v = screw[..., 3:]
+    w = angular_part(screw)
+    v = linear_part(screw)
     line = _line(axis)
     goal = _line(target)
     placed = line.placed & goal.placed
     if not w.any():
-        slide = v - line.way * _dot(line.way, v)
-        long = _dot(slide, slide)
+        slide = v - line.way * dots(line.way, v)
+        long = dots(slide, slide)
         moves = placed & (long >= PARALLEL**2)
-        ahead = _dot(slide, goal.place - line.place)
+        ahead = dots(slide, goal.place - line.place)
         divisor = np.where(moves, long, 1.0)
         first = np.where(moves, ahead / divisor, 0.0)
         second = np.full_like(first, np.nan)
@@ -219,8 +221,8 @@ def _on_the_first_turning_axis(pair: Sides, P: Array) -> Array:
     if ours is None or theirs is None:
         return P
     P = P.copy()
-    R = P[:, :3, :3]
-    carried = R @ theirs + P[:, :3, 3]
+    R = rotation_part(P)
+    carried = R @ theirs + translation_part(P)
     P[:, :3, 3] += ours - carried
     return P
 
@@ -236,7 +238,7 @@ def _anchor(lines: Lines, k: int) -> Array | None:
         if frame is not None and not frame.parallel:
             way = lines.ways[k]
             own = lines.places[k]
-            foot = frame.T[:3, 3]
+            foot = translation_part(frame.T)
             return own + way * (way @ (foot - own))
     return None
 
@@ -307,14 +309,9 @@ def _angle(
     """The angle (..., 1) about w from u to v (..., 3), and the lesser of their squared lengths
     across w.
     """
-    u = u - w * _dot(w, u)
-    v = v - w * _dot(w, v)
-    sine = _dot(w, cross(u, v))
-    angle = np.arctan2(sine, _dot(u, v))
-    lesser = np.minimum(_dot(u, u), _dot(v, v))
+    u = u - w * dots(w, u)
+    v = v - w * dots(w, v)
+    sine = dots(w, cross(u, v))
+    angle = np.arctan2(sine, dots(u, v))
+    lesser = np.minimum(dots(u, u), dots(v, v))
     return angle, lesser
-
-
-def _dot(x: Array, y: Array) -> Array:
-    """x . y over the last axis, which stays, of length 1."""
-    return (x * y).sum(-1, keepdims=True)

@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
+from ....groups.blocks import angular_part, rotation_part, translation_part
+from ....groups.vectors import applied, norms
 from ....model.chain import Chain
-from ...axis_lines import Marks, Tolerances, applied, cross, wrapped
+from ...axis_lines import Marks, Tolerances, cross, wrapped
 from .alignments import Alignments
 from .lines import Sides, sides
 
@@ -220,9 +222,9 @@ def still(T: Array, tol: Tolerances) -> Marks:
 
 def motion_sizes(T: Array) -> tuple[Array, Array]:
     """Lengths (m) and angles (rad) of motions (..., 4, 4)."""
-    turns = so3.log(T[..., :3, :3])
-    moved = np.linalg.norm(T[..., :3, 3], axis=-1)
-    turned = np.linalg.norm(turns, axis=-1)
+    turns = so3.log(rotation_part(T))
+    moved = norms(translation_part(T))
+    turned = norms(turns)
     return moved, turned
 
 
@@ -230,7 +232,7 @@ def turn_about(T: Array, S: Array, tol: Tolerances) -> float | None:
     """z with T = e^{S z} within tolerance, or None."""
     xi = se3.log(T)
     part = slice(0, 3)
-    if not S[:3].any():
+    if not angular_part(S).any():
         part = slice(3, 6)
     z = float(xi[part] @ S[part])
     for value in (z, -z):  # at half a turn the logarithm may come with either sign

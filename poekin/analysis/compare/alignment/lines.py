@@ -14,11 +14,12 @@ import numpy as np
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
+from ....groups.blocks import angular_part, rotation_part, translation_part
+from ....groups.vectors import applied, norms
 from ....model.chain import Chain
 from ...axis_lines import (
     Marks,
     Tolerances,
-    applied,
     cross,
     direction,
     nearest_point,
@@ -103,7 +104,7 @@ class Sides:
         other way round where the sign is -1.
         """
         T = P.copy()
-        turned = P[..., :3, :3] @ self.b.centre
+        turned = rotation_part(P) @ self.b.centre
         T[..., :3, 3] += sign * (turned - self.a.centre)
         return T
 
@@ -180,7 +181,7 @@ class Transformed:
         """
         r = self.residuals
         parts = r.reshape(*r.shape[:-1], 2, 3)
-        worst = np.linalg.norm(parts, axis=-1).max(-1)
+        worst = norms(parts).max(-1)
         return np.where(self.pair.alike, worst, np.inf)
 
 
@@ -189,9 +190,9 @@ def lines(chain: Chain) -> Lines:
     slides = prismatic(chain)
     centre = _centre(chain, slides)
     screws = chain.screws.copy()
-    screws[:, 3:] += cross(screws[:, :3], centre)
+    screws[:, 3:] += cross(angular_part(screws), centre)
     axes = screws.copy()
-    axes[:, 3:] -= chain.pitches[:, None] * screws[:, :3]
+    axes[:, 3:] -= chain.pitches[:, None] * angular_part(screws)
     return Lines(
         screws,
         axes,
@@ -234,7 +235,7 @@ def _centre(chain: Chain, slides: Marks) -> Array:
     """The point (3,) nearest to all axes; where they leave it free (parallel axes), as near the
     tool as they let it.
     """
-    tool = chain.home[:3, 3]
+    tool = translation_part(chain.home)
     if slides.all():
         return tool.copy()
     # Axes parallel within a degree or so leave it free, else it would fly away.

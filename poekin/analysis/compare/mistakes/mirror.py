@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 
+from ....groups.blocks import angular_part, linear_part, rotation_part
 from ....model.chain import Chain
 from ...axis_lines import Tolerances
 from ..alignment.hypotheses import Hypothesis, as_they_stand
@@ -26,10 +27,10 @@ def mirrored(chain: Chain, axis: Axis) -> Chain:
     F = np.eye(4)
     k = AXES.index(axis)
     F[k, k] = -1.0
-    R = F[:3, :3]
+    R = rotation_part(F)
     screws = chain.screws.copy()
-    screws[:, :3] = -screws[:, :3] @ R
-    screws[:, 3:] = screws[:, 3:] @ R
+    screws[:, :3] = -angular_part(screws) @ R
+    screws[:, 3:] = linear_part(screws) @ R
     # A mirrored screw thread runs the other way.
     return chain.replace(screws=screws, home=F @ chain.home @ F, pitches=-chain.pitches)
 

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ....errors import InputError, join_names, quote
+from ....groups.blocks import translation_part
+from ....groups.vectors import norm
 from ....model.checks import finite
 from ....model.provenance import warn
 from ... import dh
@@ -198,7 +200,7 @@ def _warn_if_far(
 ) -> None:
     moved = {}
     for link, T in before.items():
-        moved[link] = float(np.linalg.norm(after[link][:3, 3] - T[:3, 3]))
+        moved[link] = norm(translation_part(after[link]) - translation_part(T))
     worst = max(moved, key=lambda link: moved[link])
     if moved[worst] > FAR:
         warn(

@@ -9,6 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.blocks import angular_part, linear_part
+from ....groups.vectors import norm
 from ...chain_data import ChainData
 from ..other_frames import rezeroed
 
@@ -47,16 +49,16 @@ def joints_of(chain: ChainData) -> list[LoopJoint]:
     point = np.zeros(3)
     for i, (S, kind) in enumerate(zip(chain.screws, chain.kinds, strict=True)):
         if kind == "prismatic":
-            joints.append(LoopJoint(S[3:].copy(), point, True, i))
+            joints.append(LoopJoint(linear_part(S).copy(), point, True, i))
         else:
-            point = np.cross(S[:3], S[3:])
-            joints.append(LoopJoint(S[:3].copy(), point, False, i))
+            point = np.cross(angular_part(S), linear_part(S))
+            joints.append(LoopJoint(angular_part(S).copy(), point, False, i))
     return joints
 
 
 def sine(a: LoopJoint, b: LoopJoint) -> float:
     """Sine of the angle between two axes."""
-    return float(np.linalg.norm(np.cross(a.direction, b.direction)))
+    return norm(np.cross(a.direction, b.direction))
 
 
 def meeting_point(joints: Sequence[LoopJoint], tolerance: Tolerance) -> Array | None:
@@ -83,7 +85,7 @@ def parallel(joints: Sequence[LoopJoint], tolerance: Tolerance) -> bool:
     if any(sine(first, other) > tolerance.angle for other in joints[1:]):
         return False
     return all(
-        float(np.linalg.norm(np.cross(a.direction, b.point - a.point))) > tolerance.distance
+        norm(np.cross(a.direction, b.point - a.point)) > tolerance.distance
         for a, b in pairwise(joints)
     )
 
@@ -97,7 +99,7 @@ def planar(joints: Sequence[LoopJoint], tolerance: Tolerance) -> bool:
     if not normals or not ways:
         return False
     first = normals[0]
-    if any(float(np.linalg.norm(np.cross(first, h))) > tolerance.angle for h in normals):
+    if any(norm(np.cross(first, h)) > tolerance.angle for h in normals):
         return False
     return all(abs(float(first @ way)) <= tolerance.angle for way in ways)
 

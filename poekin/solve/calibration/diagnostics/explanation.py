@@ -14,6 +14,8 @@ import numpy as np
 from ....errors import InputError, quote
 from ....groups import se3, so3
 from ....groups.arrays import Array
+from ....groups.blocks import rotation_part, translation_part
+from ....groups.vectors import norm
 from ..fit import initial_guess
 from ..fit.fitting import fit_parameters
 from ..fit.initial_guess import MISFIT
@@ -194,7 +196,7 @@ def _base(s: Measurement, base: Array) -> Size | None:
     if s.unknown_frames:
         return None
     if isinstance(s, Distances):
-        return Size(float(np.linalg.norm(base - s.centre)))
+        return Size(norm(base - s.centre))
     return size_of(base)
 
 
@@ -221,8 +223,8 @@ def _is_other_tool(found: Explanation, reach: float) -> bool:
 def size_of(T: Array) -> Size:
     """Distance and angle by which a pose (4, 4) moves its frame."""
     return Size(
-        float(np.linalg.norm(T[:3, 3])),
-        float(np.linalg.norm(so3.log(T[:3, :3]))),
+        norm(translation_part(T)),
+        norm(so3.log(rotation_part(T))),
     )
 
 

@@ -16,6 +16,8 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.blocks import linear_part
+from ....groups.vectors import norms
 from ....model.checks import read_only
 from ..diagnostics.identification import RANK
 from ..fit.noise import NoiseEstimate
@@ -97,8 +99,8 @@ def screw_bounds(found: CalibrationData, fit: Propagation, largest: ReadingError
     """
     chain = found.chain
     first = worst_case(found.error_model.screw_jacobian(found.values), fit, largest)
-    tilt, shift = np.linalg.norm(first.reshape(-1, 2, 3), axis=2).T
-    moments = np.linalg.norm(chain.screws[:, 3:], axis=1)
+    tilt, shift = norms(first.reshape(-1, 2, 3)).T
+    moments = norms(linear_part(chain.screws))
     turned = tilt**2 + ROUNDING
     moved = tilt**2 * moments + 2.0 * tilt * shift + ROUNDING * (chain.reach + moments)
     return first + np.repeat(np.stack([turned, moved], axis=1), 3, axis=1)

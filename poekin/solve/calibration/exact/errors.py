@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.blocks import rotation_part, translation_part
 from ....model.chain import Chain
 from ....model.sampling import angle_mask
 from ..fit.losses import chi_square
@@ -84,8 +85,8 @@ def printed_digits(chain: Chain, q: Array, T: Array) -> Digits:
     return Digits(
         angles=angle_grid(q[:, turns]) if turns.any() else None,
         lengths=length_grid(q[:, ~turns]) if not turns.all() else None,
-        positions=length_grid(T[:, :3, 3]),
-        rotations=rotation_grid(T[:, :3, :3]),
+        positions=length_grid(translation_part(T)),
+        rotations=rotation_grid(rotation_part(T)),
     )
 
 

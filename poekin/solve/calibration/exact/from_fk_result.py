@@ -9,6 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.vectors import norms
 from ....model.chain import Chain
 from ....model.coordinates import coordinates
 from ....results import Result
@@ -127,7 +128,7 @@ def pose_bound(
     rows = q.reshape(-1, q.shape[-1])
     J = pose_jacobian(found.error_model, p, rows)
     components = worst_case(J, fit, errors).reshape(*q.shape[:-1], 2, 3)
-    lengths = np.linalg.norm(components, axis=-1)
+    lengths = norms(components)
     return PoseErrors(lengths[..., 0], lengths[..., 1])
 
 

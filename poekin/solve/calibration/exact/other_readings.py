@@ -11,6 +11,7 @@ import numpy as np
 from ....errors import InputError, escape_unprintable, quote
 from ....groups import se3
 from ....groups.arrays import Array
+from ....groups.vectors import norms
 from ....model.chain import Chain
 from ....model.sampling import angle_mask
 from ..calibration import Calibration
@@ -150,5 +151,5 @@ def _frames(chain: Chain, q: Array, poses: Poses) -> tuple[Array, Array] | None:
 def _miss(T: Array, measured: Array) -> Size:
     """Median distance and angle between poses (N, 4, 4)."""
     errors = pose_errors(T, measured).reshape(-1, 2, 3)
-    angle, length = np.median(np.linalg.norm(errors, axis=2), axis=0).tolist()
+    angle, length = np.median(norms(errors), axis=0).tolist()
     return Size(length, angle)

@@ -16,6 +16,8 @@ import numpy as np
 from ....errors import InputError
 from ....groups import se3, so3
 from ....groups.arrays import Array
+from ....groups.blocks import rotation_part, translation_part
+from ....groups.vectors import norms
 from ..model.tsqr import least_squares
 from .flatness import FLAT, describe, extents, is_flat
 from .reweighted import Weighted, reweighted
@@ -55,8 +57,8 @@ def hand_eye(A: Array, B: Array) -> tuple[Array, Array]:
     """
     count = len(A)
     _check_count(count, 3, "two unknown frames")
-    R_A = A[:, :3, :3]
-    R_B = B[:, :3, :3]
+    R_A = rotation_part(A)
+    R_B = rotation_part(B)
     turned = reweighted(
         partial(_rotations, R_A, R_B),
         count,
@@ -68,8 +70,8 @@ def hand_eye(A: Array, B: Array) -> tuple[Array, Array]:
     # unknowns t_Z, t_X; a design of rotations alone: no row has more leverage than another
     fixed = np.broadcast_to(-np.eye(3), R_A.shape)
     design = np.concatenate([R_A, fixed], axis=2)
-    there = B[:, :3, 3] @ R_X.T
-    here = A[:, :3, 3]
+    there = translation_part(B) @ R_X.T
+    here = translation_part(A)
     floor = _rounding(
         np.median(np.abs(there)),
         np.median(np.abs(here)),
@@ -168,8 +170,8 @@ def mean_pose(T: Array) -> Array:
     Source: Moakher 2002, "Means and averaging in the group of rotations" (SIAM J. Matrix Analysis
     24), the projected arithmetic mean, with weights.
     """
-    R = T[:, :3, :3]
-    t = T[:, :3, 3]
+    R = rotation_part(T)
+    t = translation_part(T)
     count = len(T)
     turned = reweighted(
         partial(_mean_rotation, R),
@@ -337,7 +339,7 @@ def _nearer(
 
 def _lengths(vectors: Array) -> Array:
     """Lengths (N,) of vectors (N, 3)."""
-    return np.linalg.norm(vectors, axis=1)
+    return norms(vectors)
 
 
 def _check_count(count: int, need: int, what: str) -> None:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.vectors import norm
 from ..measurements.measurement import per_error
 from ..model.problem import Problem
 from ..model.tsqr import blocked_product, least_squares, qr_r
@@ -119,7 +120,7 @@ def minimise(
                 return Minimum(p, done, steps, jacobian)
             damping = max(_FIRST_DAMPING, 10.0 * damping)
             trial = _trial(objective, p, linear, damping)
-        length = float(np.linalg.norm(trial.z))
+        length = norm(trial.z)
         steps.append(Step(cost, length, damping))
         p = trial.p
         cost = trial.cost

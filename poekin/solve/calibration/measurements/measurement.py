@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3
 from ....groups.arrays import Array, poses
+from ....groups.blocks import translation_part
 from ....model.checks import finite, one_pose, read_only
 
 Rows = NDArray[np.integer]
@@ -240,7 +241,7 @@ class Measurement:
         measured = getattr(self, self._measured).copy()
         lengths = measured
         if measured.shape[1:] == (4, 4):
-            lengths = measured[:, :3, 3]
+            lengths = translation_part(measured)
         lengths *= unit
         return self._with(**{self._measured: measured, "covariance": None})
 

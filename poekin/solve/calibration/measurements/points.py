@@ -12,6 +12,8 @@ from ....checks import choice
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
+from ....groups.blocks import rotation_part, translation_part
+from ....groups.vectors import norms
 from ....model.checks import finite
 from ..fit import initial_guess
 from .measurement import Derivatives, Frames, Measurement, UnknownFrame, seen_from
@@ -29,15 +31,15 @@ def _velocities(D: Array, y: Array) -> Array:
 
 def points_at(T: Array, points: Array) -> Array:
     """Points (N, k, 3) in the base frame, of points (k, 3) in the tip frame."""
-    R = T[:, :3, :3]
+    R = rotation_part(T)
     back = np.swapaxes(R, 1, 2)
     return points @ back + T[:, None, :3, 3]
 
 
 def point_at(T: Array, point: Array) -> Array:
     """Point (N, 3) in the base frame, of a point (3,) in the tip frame."""
-    R = T[:, :3, :3]
-    t = T[:, :3, 3]
+    R = rotation_part(T)
+    t = translation_part(T)
     return R @ point + t
 
 
@@ -231,7 +233,7 @@ class Distances(Measurement):
         """Errors d_model − d_measured (N, 1)."""
         y = point_at(T, self.point)
         away = self._away(y, frame_values)
-        errors = np.linalg.norm(away, axis=1) - self.d
+        errors = norms(away) - self.d
         return errors[:, None]
 
     def jacobian(

@@ -9,6 +9,7 @@ import numpy as np
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
+from ....groups.blocks import rotation_part, translation_part
 from ..fit import initial_guess
 from .measurement import Derivatives, Frames, Measurement, make_unknown_frame, pose_rows, seen_from
 
@@ -17,9 +18,9 @@ def pose_errors(T: Array, measured: Array) -> Array:
     """Errors (N, 6): the rotation vector of R R_measured^T (rad), and p - p_measured (m), both in
     the fixed axes.
     """
-    back = np.swapaxes(measured[:, :3, :3], 1, 2)
-    turns = T[:, :3, :3] @ back
-    moved = T[:, :3, 3] - measured[:, :3, 3]
+    back = np.swapaxes(rotation_part(measured), 1, 2)
+    turns = rotation_part(T) @ back
+    moved = translation_part(T) - translation_part(measured)
     return np.concatenate([so3.log(turns), moved], axis=1)
 
 
@@ -28,7 +29,7 @@ def pose_error_jacobian(T: Array, errors: Array, D: Array) -> Array:
     J_l^-1(w) omega, dp = v + omega x p.
     """
     turns = D[:, :3]
-    p = T[:, :3, 3]
+    p = translation_part(T)
     dw = so3.left_jacobian_inverse(errors[:, :3]) @ turns
     dp = D[:, 3:] - so3.hat(p) @ turns
     return np.concatenate([dw, dp], axis=1)

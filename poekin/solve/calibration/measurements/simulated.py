@@ -12,6 +12,8 @@ from ....checks import choice, whole
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
+from ....groups.blocks import rotation_part
+from ....groups.vectors import normalised, norms
 from ....model.chain import Chain
 from ....model.checks import finite, read_only
 from ....model.coordinates import coordinates
@@ -280,7 +282,7 @@ class _Sensor(NamedTuple):
         w[self.gross] += self._gross_vectors(GROSS_TURN)
         e[self.gross] += self._gross_vectors(GROSS_SHIFT, self.reach)
         T = T.copy()
-        R = T[:, :3, :3]
+        R = rotation_part(T)
         T[:, :3, :3] = so3.exp(w) @ R
         T[:, :3, 3] += e
         return T
@@ -301,7 +303,7 @@ class _Sensor(NamedTuple):
     ) -> Array:
         """Measured distances (N,) of a point of the tool from the centre."""
         away = point_at(T, point) - centre
-        d = np.linalg.norm(away, axis=1)
+        d = norms(away)
         d += self._drawn(self.noise[1], d.shape)
         count = len(d)
         signs = self.outlier_rng.choice([-1.0, 1.0], count)
@@ -334,7 +336,7 @@ class _Sensor(NamedTuple):
 def _directions(rng: np.random.Generator, count: int) -> Array:
     """Unit vectors (count, 3), evenly over the sphere."""
     z = rng.normal(size=(count, 3))
-    return z / np.linalg.norm(z, axis=1, keepdims=True)
+    return normalised(z)
 
 
 def _random_frames(rng: np.random.Generator, reach: float) -> tuple[Array, ...]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.blocks import rotation_part
 from ..measurements.measurement import Frames, Measurement, Rows
 from ..measurements.points import Distances, Points, point_at, points_at
 
@@ -45,7 +46,7 @@ def places_and_errors(s: Measurement, T: Array, frame_values: Frames) -> tuple[A
         return places[:, None], along[:, None]
     vectors = errors.reshape(len(T), -1, 3)
     if frame_values:  # the first is the frame in which the errors stand
-        vectors = vectors @ frame_values[0][:3, :3].T
+        vectors = vectors @ rotation_part(frame_values[0]).T
     if isinstance(s, Points):
         return points_at(T, s.points), vectors
     return T[:, None, :3, 3], vectors

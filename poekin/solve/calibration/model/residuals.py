@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....groups.arrays import Array
+from ....groups.vectors import norms
 from ....results import Result
 from ..measurements.measurement import Measurement, Rows
 
@@ -125,11 +126,11 @@ def residuals(
     parts = []
     for k, (s, e) in enumerate(zip(sets, errors, strict=True)):
         points = max(1, (s.width - s.angular) // 3)
-        together = np.linalg.norm(e[:, s.angular :], axis=1)
+        together = norms(e[:, s.angular :])
         length = together / np.sqrt(points)
         angle = np.full(len(e), np.nan)
         if s.angular:
-            angle = np.linalg.norm(e[:, : s.angular], axis=1)
+            angle = norms(e[:, : s.angular])
         mine = np.full(len(e), k)
         parts.append(Residuals(length, angle, mine, rows[k]))
     return _stacked(parts)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.vectors import norm
 from ..model.residuals import Residuals
 from ..result import CalibrationData
 
@@ -81,7 +82,7 @@ class AxisChange(NamedTuple):
     def size(self) -> float:
         """Their length; NaN where none was a parameter."""
         if len(self.values):
-            return float(np.linalg.norm(self.values))
+            return norm(self.values)
         return math.nan
 
     @property

@@ -13,6 +13,7 @@ from ....analysis.compare.comparison import JointComparison
 from ....errors import ShapeError, escape_unprintable
 from ....groups import so3
 from ....groups.arrays import Array
+from ....groups.blocks import rotation_part, translation_part
 from ....html_page import caption, figure, paragraph, text
 from ..model.residuals import Residuals, largest, median, rms
 from ..result import CalibrationData
@@ -130,8 +131,8 @@ def _frame_row(name: str, frame: Array) -> tuple[str, ...]:
     """A pose (4, 4) or a point (3,)."""
     if frame.ndim == 1:
         return name, *(f"{x:.6f}" for x in frame), ""
-    turn = ", ".join(f"{w:.5f}" for w in so3.log(frame[:3, :3]))
-    return name, *(f"{x:.6f}" for x in frame[:3, 3]), turn
+    turn = ", ".join(f"{w:.5f}" for w in so3.log(rotation_part(frame)))
+    return name, *(f"{x:.6f}" for x in translation_part(frame)), turn
 
 
 def _changed(found: CalibrationData) -> Iterator[str]:
@@ -183,7 +184,7 @@ def _difference(j: JointComparison) -> float:
 
 def _uncertainty(found: CalibrationData) -> Iterator[str]:
     C = found.pose_covariance(found.nominal.random(0, CONFIGURATIONS))
-    angle = _deviation(C[:, :3, :3])
+    angle = _deviation(rotation_part(C))
     length = _deviation(C[:, 3:, 3:])
     lengths, angles = ([milli(median(x)), milli(largest(x))] for x in (length, angle))
     yield paragraph(

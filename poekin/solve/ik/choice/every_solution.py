@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.vectors import norms
 from ...chain_cache import ChainCache
 from ...ik_all.ik_all import ik_all
 from ...ik_all.sources import solvers_for
@@ -48,7 +49,7 @@ def every_solution(problem: IKProblem, targets: Array, near: Array) -> EverySolu
     )
     owner = found.target_number
     u = problem.domain.wrapped(problem.units.of(found.q), near[owner])
-    away = np.linalg.norm(u - near[owner], axis=1)
+    away = norms(u - near[owner])
     order = np.lexsort((away, owner))
     order = order[problem.contains(u)[order]]
     return EverySolution(u[order], owner[order], np.asarray(found.complete))

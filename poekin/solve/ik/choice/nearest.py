@@ -8,6 +8,7 @@ import numpy as np
 
 from ....engine.kernels import ik_codes as codes
 from ....groups.arrays import Array
+from ....groups.vectors import norms
 from ...joint_units import bounds
 from ..ik_problem import IKProblem
 from .every_solution import every_solution
@@ -92,5 +93,5 @@ def nearest_of_tries(
 def _distance(q: Array, near: Array, info: Array) -> Array:
     """Distance of solutions from a configuration; infinite where there is no solution."""
     solved = info[:, codes.AT_STATE] == codes.SOLVED
-    distance = np.linalg.norm(q - near, axis=1)
+    distance = norms(q - near)
     return np.where(solved, distance, np.inf)

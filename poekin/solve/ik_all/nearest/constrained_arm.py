@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
+from ....groups.blocks import angular_part, directions, linear_part
+from ....groups.vectors import applied, dots, normalised
 from ....model.chain_data import AnyChain, ChainData
 from ..structure import Family, meeting_point
 
@@ -26,7 +28,8 @@ class Motions(NamedTuple):
 
     def twists(self) -> Array:
         """Twists (n, 6, p) of the axes, of first order."""
-        about = np.cross(self.centres[:, :, None], self.turns, axis=1)
+        centres = self.centres[:, :, None]
+        about = np.cross(centres, self.turns, axis=1)
         return np.concatenate([self.turns, about + self.shifts], axis=1)
 
 
@@ -49,9 +52,10 @@ class ConstrainedArm:
     def screws(self) -> Array:
         """Screws (n, 6) in the base frame."""
         w = self.directions
-        moments = np.cross(self.points, w) + self.pitches[:, None] * w
+        along = self.pitches[:, None] * w
+        moments = np.cross(self.points, w) + along
         turning = np.concatenate([w, moments], axis=1)
-        sliding = np.concatenate([np.zeros_like(w), w], axis=1)
+        sliding = np.pad(w, [(0, 0), (3, 0)])
         return np.where(self.slides[:, None], sliding, turning)
 
     def chain(self, given: AnyChain) -> AnyChain:
@@ -65,42 +69,35 @@ class ConstrainedArm:
         n = len(self.slides)
         three = list(self.family.joints)
         across = _perpendicular(self.directions)
-        turns: list[Array] = []
-        shifts: list[Array] = []
-        meeting = self.family.kind == "meeting"
-        own_turns = [[i] for i in range(n) if meeting or i not in three]
-        own_shifts = [[i] for i in range(n) if not (self.slides[i] or (meeting and i in three))]
-        if not meeting:
-            own_turns.append(three)
-        for group in own_turns:
-            turns += [_only(n, group, u) for u in across[group[0]]]
-        for group in own_shifts:
-            shifts += [_only(n, group, u) for u in across[group[0]]]
-        if meeting:
-            shifts += [_only(n, three, u) for u in np.eye(3)]
+        single = [[i] for i in range(n)]
+        others = [[i] for i in range(n) if i not in three]
         centres = self.points.copy()
-        if not meeting:
+        if self.family.kind == "meeting":
+            turning = single
+            shifting = others
+            together = [_only(n, three, u) for u in np.eye(3)]
+        else:
+            turning = [*others, three]
+            shifting = single
+            together = []
             centres[three] = self.points[three].mean(axis=0)
+        shifting = [group for group in shifting if not self.slides[group[0]]]
+        turns = _across(n, turning, across)
+        shifts = _across(n, shifting, across) + together
         nothing = np.zeros((n, 3))
-        return Motions(
-            np.stack(turns + [nothing] * len(shifts), axis=2),
-            np.stack([nothing] * len(turns) + shifts, axis=2),
-            centres,
-        )
+        only_turns = turns + [nothing] * len(shifts)
+        only_shifts = [nothing] * len(turns) + shifts
+        return Motions(np.stack(only_turns, axis=2), np.stack(only_shifts, axis=2), centres)
 
     def moved(self, motions: Motions, x: Array, home: Array) -> ConstrainedArm:
         """The arm moved by parameters x (p,) and the home pose by a twist (6,) in the tool frame."""
         R = so3.exp(motions.turns @ x)
-        w = (R @ self.directions[:, :, None])[..., 0]
         lever = self.points - motions.centres
-        points = motions.centres + (R @ lever[:, :, None])[..., 0] + motions.shifts @ x
-        return ConstrainedArm(
-            self.family,
-            self.slides,
-            w / np.linalg.norm(w, axis=1, keepdims=True),
-            points,
-            self.pitches,
-            self.home @ se3.exp(home),
+        return replace(
+            self,
+            directions=normalised(applied(R, self.directions)),
+            points=motions.centres + applied(R, lever) + motions.shifts @ x,
+            home=self.home @ se3.exp(home),
         )
 
 
@@ -109,9 +106,8 @@ def rounded_arm(chain: ChainData, family: Family) -> ConstrainedArm:
     all else stays.
     """
     slides = np.array([kind == "prismatic" for kind in chain.kinds])
-    turning = chain.screws[:, :3]
-    w = np.where(slides[:, None], chain.screws[:, 3:], turning)
-    points = np.cross(turning, chain.screws[:, 3:])
+    w = directions(chain.screws)
+    points = np.cross(angular_part(chain.screws), linear_part(chain.screws))
     three = list(family.joints)
     if family.kind == "meeting":
         points[three] = meeting_point(chain.screws[three])
@@ -119,23 +115,31 @@ def rounded_arm(chain: ChainData, family: Family) -> ConstrainedArm:
         # the points nearest to each other stay where they are: those of a line in its middle
         points[three] = _nearest_points(w[three], points[three])
         mean = np.linalg.svd(w[three])[2][0]
-        w[three] = np.where((w[three] @ mean)[:, None] < 0, -mean, mean)
-    return ConstrainedArm(family, slides, w, points, np.array(chain.pitches), chain.home.copy())
+        reversed_ = w[three] @ mean < 0
+        w[three] = np.where(reversed_[:, None], -mean, mean)
+    pitches = np.array(chain.pitches)
+    return ConstrainedArm(family, slides, w, points, pitches, chain.home.copy())
 
 
 def _nearest_points(w: Array, points: Array) -> Array:
     """Points of lines that are nearest to the centre of the points given."""
     centre = points.mean(axis=0)
-    along = ((centre - points) * w).sum(axis=1, keepdims=True)
+    along = dots(centre - points, w)
     return points + along * w
 
 
 def _perpendicular(w: Array) -> Array:
     """Two unit vectors (n, 2, 3) that are perpendicular to unit vectors (n, 3), and to each other."""
-    least = np.eye(3)[np.argmin(np.abs(w), axis=1)]
-    u = np.cross(w, least)
-    u = np.asarray(u / np.linalg.norm(u, axis=1, keepdims=True), np.float64)
-    return np.stack([u, np.cross(w, u)], axis=1)
+    smallest = np.argmin(np.abs(w), axis=1)
+    least = np.eye(3)[smallest]
+    u = normalised(np.cross(w, least))
+    v = np.cross(w, u)
+    return np.stack([u, v], axis=1)
+
+
+def _across(n: int, groups: list[list[int]], across: Array) -> list[Array]:
+    """Rows (n, 3) for each group of joints: the two directions across the first of them."""
+    return [_only(n, group, u) for group in groups for u in across[group[0]]]
 
 
 def _only(n: int, joints: list[int], u: Array) -> Array:

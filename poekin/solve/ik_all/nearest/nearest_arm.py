@@ -10,6 +10,8 @@ import numpy as np
 from ....errors import InputError, join_names
 from ....groups import so3
 from ....groups.arrays import Array
+from ....groups.blocks import angular_part, directions, linear_part, rotation_part, translation_part
+from ....groups.vectors import norm
 from ....model.chain import Chain
 from ....model.sampling import angle_mask, half_range, sampling_range
 from ....results import Result
@@ -149,7 +151,8 @@ def configurations(chain: Chain) -> Array:
     for _ in range(60):
         root = (1 + root) ** (1 / (m + 1))
     alpha = root ** -np.arange(1.0, m + 1)
-    unit = (0.5 + np.arange(1, _CONFIGURATIONS + 1)[:, None] * alpha) % 1
+    counter = np.arange(1, _CONFIGURATIONS + 1)
+    unit = (0.5 + np.outer(counter, alpha)) % 1
     low, high = sampling_range(chain)
     angles = angle_mask(chain)
     half = half_range(chain)
@@ -160,9 +163,10 @@ def configurations(chain: Chain) -> Array:
 
 def pose_differences(T: Array, wanted: Array, reach: float) -> Array:
     """Differences (N, 6) of poses: rotation vector of R R_wanted^T, rad, and (p - p_wanted) / reach."""
-    turned = so3.log(T[:, :3, :3] @ wanted[:, :3, :3].transpose(0, 2, 1))
-    moved = (T[:, :3, 3] - wanted[:, :3, 3]) / reach
-    return np.concatenate([turned, moved], axis=1)
+    back = np.swapaxes(rotation_part(wanted), 1, 2)
+    turned = so3.log(rotation_part(T) @ back)
+    moved = translation_part(T) - translation_part(wanted)
+    return np.concatenate([turned, moved / reach], axis=1)
 
 
 def _fit(
@@ -174,8 +178,8 @@ def _fit(
     new = arm.chain(chain)
     poses = new.fk(q)
     residuals = pose_differences(poses, wanted, chain.reach)
-    cost = float((residuals**2).sum(axis=1).mean())
-    return _Fit(arm, new, cost, residuals, poses)
+    squares = (residuals**2).sum(axis=1)
+    return _Fit(arm, new, float(squares.mean()), residuals, poses)
 
 
 def _step(fit: _Fit, q: Array, reach: float) -> ConstrainedArm:
@@ -189,7 +193,8 @@ def _step(fit: _Fit, q: Array, reach: float) -> ConstrainedArm:
     columns = J.reshape(-1, J.shape[-1])
     # Normal equations: small matrices wait for no threads, and each step mends the one before.
     normal = columns.T @ columns
-    found, *_ = np.linalg.lstsq(normal, -columns.T @ fit.residuals.ravel(), rcond=1e-13)
+    right = -columns.T @ fit.residuals.ravel()
+    found, *_ = np.linalg.lstsq(normal, right, rcond=1e-13)
     x = np.asarray(found, np.float64)
     return fit.arm.moved(motions, x[:-6], x[-6:])
 
@@ -202,19 +207,22 @@ def _jacobian(fit: _Fit, motions: Motions, q: Array, reach: float) -> Array:
     by_motions = change.screws.reshape(N, 6, -1) @ twists
     space = np.concatenate([by_motions, change.home], axis=2)
     w = space[:, :3]
-    p = fit.poses[:, :3, 3]
-    at_tip = space[:, 3:] + np.cross(w, p[:, :, None], axis=1)
+    p = translation_part(fit.poses)
+    of_turns = np.cross(w, p[:, :, None], axis=1)
+    at_tip = space[:, 3:] + of_turns
     return np.concatenate([w, at_tip / reach], axis=1)
 
 
 def _changes(given: Chain, new: Chain) -> tuple[JointChange, ...]:
     changes = []
-    for name, A, B in zip(given.joint_names, given.screws, new.screws, strict=True):
-        w = A[:3] if A[:3].any() else A[3:]
-        u = B[:3] if B[:3].any() else B[3:]
-        angle = float(np.arctan2(np.linalg.norm(np.cross(w, u)), w @ u))
-        feet = np.cross([A[:3], B[:3]], [A[3:], B[3:]])
-        changes.append(JointChange(name, angle, float(np.linalg.norm(feet[1] - feet[0]))))
+    joints = zip(given.joint_names, given.screws, new.screws, strict=True)
+    for name, A, B in joints:
+        w = directions(A)
+        u = directions(B)
+        angle = np.arctan2(norm(np.cross(w, u)), w @ u)
+        foot = np.cross(angular_part(A), linear_part(A))
+        new_foot = np.cross(angular_part(B), linear_part(B))
+        changes.append(JointChange(name, float(angle), norm(new_foot - foot)))
     return tuple(changes)
 
 

@@ -22,8 +22,10 @@ from numpy.typing import NDArray
 
 from ....groups import se3, so3
 from ....groups.arrays import ROUNDOFF, Array
+from ....groups.blocks import angular_part, directions, linear_part, rotation_part, translation_part
+from ....groups.vectors import applied, dots, norms
 from ....model.chain_data import ChainData
-from ....model.sampling import sampling_range
+from ....model.sampling import largest_slides
 
 Marks = NDArray[np.bool_]
 
@@ -53,41 +55,44 @@ def pose_bound(given: ChainData, other: ChainData) -> PoseBound:
     for every x of joints that turn, and within the ranges of joints that slide.
     """
     links = _links(given, other)
-    n = len(links.E) - 2
+    n = len(links.o) - 2
     rounding = 16 * ROUNDOFF * (n + 2)
-    size = max(given.reach, float(links.lever.max()), float(np.abs(links.o).max()))
-    position, _ = _sums(links, _chosen(links, links.lever, 1.0))
-    _, rotation = _sums(links, _chosen(links, np.ones(n + 1), 0.0))
+    farthest = float(np.abs(links.o).max())
+    size = max(given.reach, float(links.lever.max()), farthest)
+    for_position = _chosen(links, links.lever, 1.0)
+    for_rotation = _chosen(links, np.ones(n + 1), 0.0)
+    position = _sums(links, for_position).position
+    rotation = _sums(links, for_rotation).rotation
     return PoseBound(position + rounding * size, rotation + rounding)
 
 
 def _links(given: ChainData, other: ChainData) -> _Links:
     n = len(given.kinds)
     slides = np.array([kind == "prismatic" for kind in given.kinds], bool)
-    w = np.where(slides[:, None], given.screws[:, 3:], given.screws[:, :3])
-    u = np.where(slides[:, None], other.screws[:, 3:], other.screws[:, :3])
-    feet = np.cross(given.screws[:, :3], given.screws[:, 3:])
-    tip = given.home[:3, 3]
-    o = _shortest_way(w, feet, slides, tip)
+    w = directions(given.screws)
+    u = directions(other.screws)
+    feet = _feet(given)
+    there = _feet(other)
+    o = _shortest_way(w, feet, slides, translation_part(given.home))
+    on_axes = o[1:-1]
+    R = _least_turn(w, u)
+    along = dots(on_axes - there, u)
+    ends = np.where(slides[:, None], on_axes, there + along * u)
     E = np.zeros((n + 2, 4, 4))
     E[:] = np.eye(4)
-    E[1:-1, :3, :3] = _least_turn(w, u)
-    there = np.cross(other.screws[:, :3], other.screws[:, 3:])
-    along = ((o[1:-1] - there) * u).sum(axis=1, keepdims=True)
-    ends = np.where(slides[:, None], o[1:-1], there + along * u)
-    E[1:-1, :3, 3] = ends - (E[1:-1, :3, :3] @ o[1:-1, :, None])[..., 0]
+    E[1:-1, :3, :3] = R
+    E[1:-1, :3, 3] = ends - applied(R, on_axes)
     E[-1] = other.home @ se3.inverse(given.home)
-    lengths = np.linalg.norm(np.diff(o[1:], axis=0), axis=1) + _travel(given)
-    lever = np.append(np.cumsum(lengths[::-1])[::-1], 0.0)
-    return _Links(E, o, lever, _free_twists(w, o[1:-1], slides))
+    gaps = norms(np.diff(o[1:], axis=0))
+    lengths = gaps + largest_slides(given)
+    from_tip = np.cumsum(lengths[::-1])
+    lever = np.append(from_tip[::-1], 0.0)
+    return _Links(E, o, lever, _free_twists(w, on_axes, slides))
 
 
-def _travel(chain: ChainData) -> Array:
-    """Largest distance (n,) that each joint slides within the ranges of the coordinates."""
-    low, high = sampling_range(chain)
-    C = chain.coupling
-    middle = np.abs(C @ (low / 2 + high / 2) + chain.offset)
-    return np.abs(chain.local.slides) * (middle + np.abs(C) @ (high / 2 - low / 2))
+def _feet(chain: ChainData) -> Array:
+    """Points (n, 3) of the axes that are nearest to the origin; 0 of a joint that slides."""
+    return np.cross(angular_part(chain.screws), linear_part(chain.screws))
 
 
 def _shortest_way(w: Array, feet: Array, slides: Marks, tip: Array) -> Array:
@@ -96,24 +101,27 @@ def _shortest_way(w: Array, feet: Array, slides: Marks, tip: Array) -> Array:
     """
     o = np.concatenate([feet[:1], feet, tip[None]])
     n = len(w)
-    across = np.eye(3) - w[:, :, None] * w[:, None]
+    identity = np.eye(3)
+    across = identity - w[:, :, None] * w[:, None]
     across[slides] = 0
     # Least squares of the lengths: a chain of springs, each end kept on its axis.
     springs = np.zeros((n, 3, n, 3))
     right = np.zeros((n, 3))
     stiff = 1e6
     for i in range(n):
-        springs[i, :, i] += stiff * across[i]
-        right[i] += stiff * across[i] @ feet[i]
+        kept = stiff * across[i]
+        springs[i, :, i] += kept
+        right[i] += kept @ feet[i]
         for j in (i - 1, i + 1):
             if 0 <= j < n:
-                springs[i, :, i] += np.eye(3)
-                springs[i, :, j] -= np.eye(3)
+                springs[i, :, i] += identity
+                springs[i, :, j] -= identity
             elif j == n:
-                springs[i, :, i] += np.eye(3)
+                springs[i, :, i] += identity
                 right[i] += tip
-    found = np.linalg.solve(springs.reshape(3 * n, 3 * n), right.ravel()).reshape(n, 3)
-    along = ((found - feet) * w).sum(axis=1, keepdims=True)
+    stiffness = springs.reshape(3 * n, 3 * n)
+    found = np.linalg.solve(stiffness, right.ravel()).reshape(n, 3)
+    along = dots(found - feet, w)
     o[1:-1] = np.where(slides[:, None], found, feet + along * w)
     o[0] = o[1]
     return o
@@ -123,10 +131,10 @@ def _least_turn(w: Array, u: Array) -> Array:
     """Rotations (n, 3, 3) by the least angle from unit directions w to u."""
     c = np.cross(w, u)
     sine = np.linalg.norm(c, axis=1, keepdims=True)
-    cosine = (w * u).sum(axis=1, keepdims=True)
+    angle = np.arctan2(sine, dots(w, u))
     with np.errstate(invalid="ignore", divide="ignore"):
-        vector = np.where(sine > 0, c / sine, 0.0) * np.arctan2(sine, cosine)
-    return so3.exp(vector)
+        axis = np.where(sine > 0, c / sine, 0.0)
+    return so3.exp(axis * angle)
 
 
 def _free_twists(w: Array, o: Array, slides: Marks) -> Array:
@@ -141,34 +149,52 @@ def _free_twists(w: Array, o: Array, slides: Marks) -> Array:
     return free
 
 
-def _chosen(links: _Links, levers: Array, of_shift: float) -> Array:
-    """Motions E with the turns and slides that make the sum of |shift| and angle times lever small."""
-    n = len(links.E) - 2
+class _Differences(NamedTuple):
+    """Turn and velocity at each axis' point between neighbouring motions, of first order: `constant`
+    (n + 1, 2, 3) and what the free twists' amounts (4 n,) add, (n + 1, 2, 3, 4 n).
+    """
+
+    constant: Array
+    rows: Array
+
+
+def _differences(links: _Links) -> _Differences:
+    n = len(links.o) - 2
     eta = se3.log(links.E)
     rows = np.zeros((n + 1, 2, 3, n, 4))
-    right = np.zeros((n + 1, 2, 3))
+    constant = np.zeros((n + 1, 2, 3))
     for i in range(n + 1):
         point = links.o[i + 1]
-        right[i] = _at(eta[i + 1] - eta[i], point)
+        constant[i] = _at(eta[i + 1] - eta[i], point)
         if i < n:
             rows[i, :, :, i] += _at(links.free[i], point)
         if i > 0:
             rows[i, :, :, i - 1] -= _at(links.free[i - 1], point)
-    scale = np.stack([levers, np.full(n + 1, of_shift)], axis=1)
-    weight = np.ones((n + 1, 2))
-    x = np.zeros(4 * n)
+    return _Differences(constant, rows.reshape(n + 1, 2, 3, 4 * n))
+
+
+def _chosen(links: _Links, levers: Array, of_shift: float) -> Array:
+    """Motions E with the turns and slides that make the sum of |shift| and angle times lever small."""
+    constant, rows = _differences(links)
+    unknowns = rows.shape[-1]
+    shifts = np.full(len(levers), of_shift)
+    scale = np.stack([levers, shifts], axis=1)
+    weight = np.ones_like(scale)
+    x = np.zeros(unknowns)
     for _ in range(_REWEIGHTED):
         W = (scale * weight)[:, :, None]
-        A = (W[..., None, None] * rows).reshape(-1, 4 * n)
-        x, *_ = np.linalg.lstsq(A, -(W * right).ravel(), rcond=1e-12)
-        left = right + (rows.reshape(-1, 4 * n) @ x).reshape(right.shape)
-        size = scale * np.linalg.norm(left, axis=2)
+        A = (W[..., None] * rows).reshape(-1, unknowns)
+        b = -(W * constant).ravel()
+        x, *_ = np.linalg.lstsq(A, b, rcond=1e-12)
+        left = constant + (rows.reshape(-1, unknowns) @ x).reshape(constant.shape)
+        size = scale * norms(left)
         if not size.any():
             break
         weight = 1 / np.sqrt(size + 1e-3 * size.max())
     E = links.E.copy()
     # E_i e^{a A_i}: the turn comes first, so that it is about the given axis.
-    E[1:-1] = E[1:-1] @ se3.exp((links.free @ x.reshape(n, 4, 1))[..., 0])
+    amounts = x.reshape(len(links.free), 4)
+    E[1:-1] = E[1:-1] @ se3.exp(applied(links.free, amounts))
     return E
 
 
@@ -179,10 +205,12 @@ def _at(twist: Array, point: Array) -> Array:
     return np.stack([w, v])
 
 
-def _sums(links: _Links, E: Array) -> tuple[float, float]:
+def _sums(links: _Links, E: Array) -> PoseBound:
     g = se3.inverse(E[:-1]) @ E[1:]
-    angle = np.linalg.norm(so3.log(g[:, :3, :3]), axis=1)
+    R = rotation_part(g)
+    angle = norms(so3.log(R))
     o = links.o[1:]
-    shift = np.linalg.norm((g[:, :3, :3] @ o[..., None])[..., 0] + g[:, :3, 3] - o, axis=1)
-    position = (shift + 2 * np.sin(angle / 2) * links.lever).sum()
-    return float(position), float(angle.sum())
+    shift = norms(applied(R, o) + translation_part(g) - o)
+    swing = 2 * np.sin(angle / 2) * links.lever
+    position = (shift + swing).sum()
+    return PoseBound(float(position), float(angle.sum()))

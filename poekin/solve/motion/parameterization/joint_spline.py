@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.vectors import norms
 
 SAME_POINT = 1e-6
 """Points nearer than this share of the longest step are one point: what lies between them is the
@@ -52,7 +53,7 @@ class JointSpline(NamedTuple):
 
 def distinct_points(q: Array) -> np.ndarray:
     """Numbers of the points (N,) but for those that repeat the one before."""
-    steps = np.linalg.norm(np.diff(q, axis=0), axis=1)
+    steps = norms(np.diff(q, axis=0))
     least = SAME_POINT * steps.max(initial=0.0)
     kept = [0]
     for k in range(1, len(q)):
@@ -67,7 +68,7 @@ def make_joint_spline(q: Array) -> JointSpline:
     The third derivative is continuous at the second point and the last but one ("not a knot", as
     SciPy's `CubicSpline`): two points give a line, three a parabola, four one cubic.
     """
-    h = np.linalg.norm(np.diff(q, axis=0), axis=1)
+    h = norms(np.diff(q, axis=0))
     knots = np.concatenate([[0.0], np.cumsum(h)])
     h = np.diff(knots)
     slopes = np.diff(q, axis=0) / h[:, None]

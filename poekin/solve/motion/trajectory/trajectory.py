@@ -15,6 +15,8 @@ from ....errors import FileError, InputError, quote, safe_repr
 from ....formats.text import csv_rows
 from ....formats.text.atomic_write import FilePath, write_whole
 from ....groups.arrays import Array, numbers
+from ....groups.blocks import translation_part
+from ....groups.vectors import norms
 from ....model.chain import Chain
 from ....model.readings.coupled import joint_values
 from ....results import Result
@@ -127,7 +129,7 @@ class Trajectory(Result):
     @cached_property
     def path_deviation(self) -> float:
         """Largest distance (m) of the tip from the straight lines between its waypoints."""
-        positions = self.chain.fk(self.q)[:, :3, 3]
+        positions = translation_part(self.chain.fk(self.q))
         corners = positions[self.waypoints]
         points = np.arange(len(positions))
         k = np.searchsorted(self.waypoints, points, side="right") - 1
@@ -137,7 +139,7 @@ class Trajectory(Result):
         length = np.sum(way * way, axis=1)
         along = np.sum(off * way, axis=1) / np.where(length > 0, length, 1.0)
         across = off - np.clip(along, 0.0, 1.0)[:, None] * way
-        return float(np.linalg.norm(across, axis=1).max())
+        return float(norms(across).max())
 
     def to_csv(self) -> str:
         """Text with the columns time, one for each coordinate, and NAME_velocity for each.

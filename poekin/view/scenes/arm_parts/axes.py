@@ -6,6 +6,7 @@ import numpy as np
 
 from ....errors import escape_unprintable
 from ....groups.arrays import Array
+from ....groups.blocks import angular_part, linear_part
 from ....model.screw import axis_of
 from ...nodes import Attachment, Label, Node, Polyline, Role, Triangles
 from ...scene import PageTable
@@ -105,7 +106,7 @@ def _screw_row(joint: JointGeometry, k: int) -> tuple[str, ...]:
         place = _vector(axis_of(joint.screw).point)
         pitch = _vector([joint.pitch])
     name = escape_unprintable(joint.name)
-    w, v = _vector(joint.screw[:3]), _vector(joint.screw[3:])
+    w, v = _vector(angular_part(joint.screw)), _vector(linear_part(joint.screw))
     return f"A{k + 1}", name, joint.kind, w, place, v, pitch
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from ....errors import join_names
 from ....groups.arrays import Array
+from ....groups.blocks import translation_part
 from ....model.chain_data import ScrewKind
 from ....model.coordinates import one_configuration
 from ...scene import Slider
@@ -123,7 +124,7 @@ class ArmGeometry:
         """Points (n, 3) of the arm in its base frame: the ends of its bones and its frames, m."""
         T = self.poses(q)
         held = [(bone.link, point) for bone in self.bones for point in (bone.start, bone.end)]
-        held += [(frame.link, frame.pose[:3, 3]) for frame in self.frames]
+        held += [(frame.link, translation_part(frame.pose)) for frame in self.frames]
         return np.array([transformed(point, T[link]) for link, point in held])
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from ....analysis.axis_lines import uncoupled_at_zero
 from ....groups import se3
 from ....groups.arrays import Array
+from ....groups.blocks import translation_part
 from ....model.chain import Chain
 from ....model.readings.coupled import own_limits
 from ...scene import Slider
@@ -29,7 +30,7 @@ def chain_geometry(chain: Chain) -> ArmGeometry:
         moved = chain.joint_poses(q) @ back
         return np.concatenate([np.eye(4)[None], moved])
 
-    places = np.array([np.zeros(3), *rest[:, :3, 3], tool[:3, 3]])
+    places = np.array([np.zeros(3), *translation_part(rest), translation_part(tool)])
     frames = [LinkFrame(0, np.eye(4), chain.base, "end")]
     frames += [LinkFrame(k + 1, rest[k], joints[k].name, "link") for k in range(n)]
     return ArmGeometry(
@@ -53,9 +54,9 @@ def _joints(chain: Chain, rest: Array) -> tuple[JointGeometry, ...]:
             kind=chain.kinds[k],
             parent=k,
             child=k + 1,
-            point=rest[k, :3, 3],
+            point=translation_part(rest[k]),
             direction=rest[k, :3, 2],
-            child_point=rest[k, :3, 3],
+            child_point=translation_part(rest[k]),
             child_direction=rest[k, :3, 2],
             pitch=float(chain.pitches[k]),
             limits=tuple(limits[k]),

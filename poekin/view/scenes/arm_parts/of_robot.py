@@ -9,6 +9,7 @@ import numpy as np
 from ....analysis.amounts import joint_unit
 from ....groups import se3
 from ....groups.arrays import Array
+from ....groups.blocks import rotation_part, translation_part
 from ....model.chain_data import ScrewKind
 from ....model.joint import MOVING, Joint
 from ....model.robot import Robot
@@ -39,7 +40,8 @@ def robot_geometry(robot: Robot, tips: Sequence[str]) -> ArmGeometry:
         sliders=_sliders(robot),
         joints=tuple(_joint(joint, numbers, rest) for joint in moving),
         bones=tuple(
-            Bone(numbers[joint.parent], np.zeros(3), joint.origin[:3, 3]) for joint in robot.joints
+            Bone(numbers[joint.parent], np.zeros(3), translation_part(joint.origin))
+            for joint in robot.joints
         ),
         frames=_frames(robot, moving, tips, numbers),
         poses=poses,
@@ -54,8 +56,8 @@ def _joint(joint: Joint, numbers: dict[str, int], rest: Array) -> JointGeometry:
         kind=KINDS[joint.kind],
         parent=parent,
         child=numbers[joint.child],
-        point=joint.origin[:3, 3],
-        direction=joint.origin[:3, :3] @ axis,
+        point=translation_part(joint.origin),
+        direction=rotation_part(joint.origin) @ axis,
         child_point=np.zeros(3),
         child_direction=axis,
         pitch=joint.pitch,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ....analysis.dexterity.manipulability import manipulability
+from ....groups.blocks import translation_part
 from ....model.chain import Chain
 from ...nodes import Attachment, Cloud
 
@@ -16,4 +17,4 @@ def reach_cloud(chain: Chain, count: int, size: float) -> Cloud:
     q = chain.random(SEED, size=count)
     values = manipulability(chain, q).translation.yoshikawa
     attachment = Attachment("cloud", "first", name=f"points that {chain.tip} reaches")
-    return Cloud(attachment, chain.fk(q)[:, :3, 3], 0.006 * size, values)
+    return Cloud(attachment, translation_part(chain.fk(q)), 0.006 * size, values)

@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 
 from ....groups.arrays import Array
+from ....groups.vectors import norms
 from ....model.chain_data import ScrewKind
 from ...nodes import Attachment, Layer, Triangles
 from ...shapes import (
@@ -52,7 +53,7 @@ def glyph_radii(arm: ArmGeometry, q: Array, size: float) -> Array:
 
 def _room(place: Array, places: Array, coincident: float) -> float:
     """Largest radius that leaves the next place free, of those that are not here."""
-    gaps = np.linalg.norm(places - place, axis=1)
+    gaps = norms(places - place)
     return 0.35 * float(gaps[gaps > coincident].min(initial=np.inf))
 
 

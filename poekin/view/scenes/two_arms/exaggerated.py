@@ -20,6 +20,7 @@ from ....analysis.compare.alignment.lines import lines
 from ....analysis.compare.comparison import NOISE, Comparison
 from ....groups import se3, so3
 from ....groups.arrays import Array
+from ....groups.blocks import angular_part, linear_part
 from ....model.chain import Chain
 from ..arm_parts.of_chain import chain_geometry
 
@@ -124,8 +125,8 @@ def _size(move: Array, centre: Array, reach: float) -> float:
     """Length that a difference is seen as near the arm's middle: a shift, or a tilt over a tenth of
     the reach.
     """
-    shift = move[3:] + np.cross(move[:3], centre)
-    return float(np.linalg.norm(shift) + 0.1 * reach * np.linalg.norm(move[:3]))
+    shift = linear_part(move) + np.cross(angular_part(move), centre)
+    return float(np.linalg.norm(shift) + 0.1 * reach * np.linalg.norm(angular_part(move)))
 
 
 def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
@@ -165,6 +166,6 @@ def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
 
 def _unit(move: Array) -> tuple[Array, float]:
     """Unit screw and size of a motion, 0 where it is rounding."""
-    turn = move[:3] * (np.linalg.norm(move[:3]) > NOISE)
-    screw, size = se3.axis_angle(np.r_[turn, move[3:]])
+    turn = angular_part(move) * (np.linalg.norm(angular_part(move)) > NOISE)
+    screw, size = se3.axis_angle(np.r_[turn, linear_part(move)])
     return screw, float(size * (size > NOISE))

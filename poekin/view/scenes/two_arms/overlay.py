@@ -9,6 +9,7 @@ import numpy as np
 
 from ....groups import se3
 from ....groups.arrays import Array
+from ....groups.blocks import rotation_part
 from ...kinematics import page_tips
 from ...nodes import Attachment, Label, Node
 from ...scene import SceneArm
@@ -89,7 +90,7 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
             parent=second.axes[k],
             child=bodies[k + 1],
             point=transformed(joint.point, back[k]),
-            direction=back[k, :3, :3] @ joint.direction,
+            direction=rotation_part(back[k]) @ joint.direction,
         )
         joints.append(moved)
     frames = [replace(frame, link=bodies[frame.link]) for frame in geometry.frames]
