@@ -30,7 +30,8 @@ def locked_values(units: JointUnits, lock: Any, limits: Array) -> Array:
     for name, value in lock or ():
         k, scale = _place(units, name)
         real = is_real(value) and np.isfinite(value)
-        if not real or not limits[k, 0] <= scale * value <= limits[k, 1]:
+        low, high = limits[k]
+        if not real or not low <= scale * value <= high:
             raise _not_within(name, limits[k] / scale, value)
         values[k] = scale * float(value)
     return values
@@ -47,17 +48,21 @@ def locked_rows(
     Raises: InputError, ShapeError, UnknownName.
     """
     count = int(np.prod(batch))
+    low, high = limits.T
     rows = np.full((count, units.fast.dof), np.nan)
     for name, value in lock or ():
         k, scale = _place(units, name)
         given = numbers(value, f"lock: {quote(name)}")
-        inside = (scale * given >= limits[k, 0]) & (scale * given <= limits[k, 1])
+        scaled = scale * given
+        inside = (scaled >= low[k]) & (scaled <= high[k])
         inside &= np.isfinite(given)
         if isinstance(value, bool) or not inside.all():
-            first = value if given.ndim == 0 else float(given[~inside][0])
+            outside = given[~inside]
+            first = value if given.ndim == 0 else float(outside[0])
             raise _not_within(name, limits[k] / scale, first)
         try:
-            rows[:, k] = scale * np.broadcast_to(given, batch).reshape(count)
+            of_targets = np.broadcast_to(given, batch)
+            rows[:, k] = scale * of_targets.reshape(count)
         except ValueError as error:
             raise ShapeError(
                 f"lock: {quote(name)}: shape {given.shape} does not fit the targets' {batch}"
@@ -75,9 +80,11 @@ def free_chain(chain: Chain, values: Array) -> Chain:
     free = np.isnan(values)
     coupling = chain.nontrivial_coupling
     C = chain.coupling
-    moves = (C[:, free] != 0).any(axis=1)
+    moves = _moved_joints(chain, free)
     if free.all() and moves.all():
         return chain
+    if coupling is not None:
+        coupling = C[np.ix_(moves, free)]
     x = C[:, ~free] @ values[~free] + chain.offset
     screws = np.empty_like(chain.screws)
     P = np.eye(4)
@@ -89,7 +96,7 @@ def free_chain(chain: Chain, values: Array) -> Chain:
         screws=screws[moves],
         home=P @ chain.home,
         pitches=chain.pitches[moves],
-        coupling=None if coupling is None else C[np.ix_(moves, free)],
+        coupling=coupling,
         offset=x[moves],
         joint_names=_chosen(chain.joint_names, moves),
         q_names=_chosen(chain.q_names, free),
@@ -100,12 +107,17 @@ def free_chain(chain: Chain, values: Array) -> Chain:
     )
 
 
+def _moved_joints(chain: Chain, free: np.ndarray) -> np.ndarray:
+    """Which joints (n,) the coordinates that are `free` (m,) move."""
+    return (chain.coupling[:, free] != 0).any(axis=1)
+
+
 def at_ends(chain: Chain, free: np.ndarray) -> np.ndarray:
     """Which coordinates (m,) are not `free` (m,) and move only joints before all that may move, or
     behind them: other values of theirs move nothing but the base or the tool of the arm that is left.
     """
     moves = chain.coupling != 0
-    moving = np.flatnonzero(moves[:, free].any(axis=1))
+    moving = np.flatnonzero(_moved_joints(chain, free))
     between = moves[moving[0] : moving[-1] + 1]
     return np.asarray(~free & ~between.any(axis=0))
 
@@ -121,16 +133,19 @@ def brought_back(chain: Chain, T: Array, values: Array, free: np.ndarray) -> Arr
     if not ends.any():
         return T
     C = chain.coupling
-    moving = np.flatnonzero((C[:, free] != 0).any(axis=1))
+    moving = np.flatnonzero(_moved_joints(chain, free))
     given = np.where(free, 0.0, values)
+    at_zero = np.where(ends, 0.0, given)
     x = given @ C.T + chain.offset
-    zero = np.where(ends, 0.0, given) @ C.T + chain.offset
+    zero = at_zero @ C.T + chain.offset
     before = range(moving[0])
     behind = range(moving[-1] + 1, len(x.T))
     if before:
-        T = _product(chain, before, zero) @ se3.inverse(_product(chain, before, x)) @ T
+        back = se3.inverse(_product(chain, before, x))
+        T = _product(chain, before, zero) @ back @ T
     if behind:
-        Q = se3.inverse(_product(chain, behind, x)) @ _product(chain, behind, zero)
+        back = se3.inverse(_product(chain, behind, x))
+        Q = back @ _product(chain, behind, zero)
         T = T @ se3.inverse(chain.home) @ Q @ chain.home
     return T
 
@@ -139,12 +154,14 @@ def _product(chain: Chain, joints: Iterable[int], x: Array) -> Array:
     """Product (N, 4, 4) of the e^{A_k x_k} of some joints, x (N, n) the values of all."""
     P = np.eye(4)
     for k in joints:
-        P = P @ se3.exp(chain.screws[k] * x[:, k, None])
+        twists = chain.screws[k] * x[:, k, None]
+        P = P @ se3.exp(twists)
     return P
 
 
 def _chosen(names: tuple[str, ...], which: np.ndarray) -> tuple[str, ...]:
-    return tuple(name for name, chosen in zip(names, which, strict=True) if chosen)
+    chosen = np.flatnonzero(which)
+    return tuple(names[k] for k in chosen)
 
 
 def _place(units: JointUnits, name: Any) -> tuple[int, float]:
@@ -153,7 +170,8 @@ def _place(units: JointUnits, name: Any) -> tuple[int, float]:
     if name not in names:
         raise UnknownName(f"lock: no coordinate {quote(name)}; {suggest(str(name), names)}")
     k = names.index(name)
-    return k, float(units.of(np.ones(len(names)))[k])
+    ones = np.ones(len(names))
+    return k, float(units.of(ones)[k])
 
 
 def _not_within(name: str, limits: Array, value: Any) -> InputError:

@@ -9,13 +9,15 @@ from ..chain_data import AnyChain, ChainData
 from .statements import Statements, parse_statements
 
 _ROUNDING = 1e-15  # of the largest entry of an inverse
+UNLIMITED = (-np.inf, np.inf)
 WITHIN = 1e-12
 """Rounding (rad or m, and of the limit) by which a sum of readings may be beyond its joint's limit."""
 
 
 def coupled(chain: AnyChain, coupling: Statements) -> AnyChain:
     """f'(r) = f(K r): C' = C K; the joints' own limits stay."""
-    return with_readings(chain, parse_statements(coupling, chain.q_names), chain.q_names)
+    K = parse_statements(coupling, chain.q_names)
+    return with_readings(chain, K, chain.q_names)
 
 
 def with_readings(chain: AnyChain, K: Array, names: tuple[str, ...]) -> AnyChain:
@@ -25,8 +27,10 @@ def with_readings(chain: AnyChain, K: Array, names: tuple[str, ...]) -> AnyChain
     """
     own = [names.index(name) for name in chain.q_names]
     followed = np.flatnonzero(K[own].any(axis=0)).tolist()
-    columns = [k for k in own if k in followed] + [k for k in followed if k not in own]
-    limits = np.tile([-np.inf, np.inf], (len(names), 1))
+    columns = [k for k in own if k in followed]
+    columns += [k for k in followed if k not in own]
+    limits = np.empty((len(names), 2))
+    limits[:] = UNLIMITED
     limits[own] = chain.limits
     speeds = np.full(len(names), np.inf)
     speeds[own] = chain.velocity_limits
@@ -36,7 +40,8 @@ def with_readings(chain: AnyChain, K: Array, names: tuple[str, ...]) -> AnyChain
         limits=reading_limits(K, limits)[columns],
         velocity_limits=reading_speeds(K, speeds)[columns],
     )
-    return found.replace(**_said_by_joints(found, own_limits(chain), own_speeds(chain)))
+    said = _said_by_joints(found, own_limits(chain), own_speeds(chain))
+    return found.replace(**said)
 
 
 def own_readings(chain: ChainData) -> Array | None:
@@ -44,38 +49,44 @@ def own_readings(chain: ChainData) -> Array | None:
     x = K r + c; None where each joint follows one coordinate, or coordinates of other names.
     """
     C = chain.nontrivial_coupling
-    if C is None or (np.count_nonzero(C, axis=1) <= 1).all():
+    if C is None or not (np.count_nonzero(C, axis=1) > 1).any():
         return None
     if sorted(chain.q_names) != sorted(chain.joint_names):
         return None
-    return C[:, [chain.q_names.index(name) for name in chain.joint_names]]
+    columns = [chain.q_names.index(name) for name in chain.joint_names]
+    return C[:, columns]
 
 
 def own_limits(chain: ChainData) -> Array:
     """Limits (n, 2) of the joints' own values x: their own, and what the coordinates' leave."""
-    lower, upper = np.stack([_implied_limits(chain), chain.joint_limits]).T
-    return np.stack([lower.max(axis=-1), upper.min(axis=-1)], axis=-1)
+    implied = _implied_limits(chain)
+    own = chain.joint_limits
+    lower = np.maximum(implied[:, 0], own[:, 0])
+    upper = np.minimum(implied[:, 1], own[:, 1])
+    return np.stack([lower, upper], axis=-1)
 
 
 def own_speeds(chain: ChainData) -> Array:
     """Limits (n,) of the speeds of joints: their own, and what the coordinates' leave."""
-    return np.minimum(_speeds(chain.coupling, chain.velocity_limits), chain.joint_velocity_limits)
+    implied = _speeds(chain.coupling, chain.velocity_limits)
+    return np.minimum(implied, chain.joint_velocity_limits)
 
 
 def _said_by_joints(chain: ChainData, limits: Array, speeds: Array) -> dict[str, Array]:
     """Limits (n, 2) and speeds (n,) of joints, but for those that the coordinates' imply."""
-    lower, upper = _implied_limits(chain).T
-    implied = (limits[:, 0] <= lower) & (upper <= limits[:, 1])
+    implied = _implied_limits(chain)
+    within = (limits[:, 0] <= implied[:, 0]) & (implied[:, 1] <= limits[:, 1])
     slow = _speeds(chain.coupling, chain.velocity_limits) <= speeds
     return {
-        "joint_limits": np.where(implied[:, None], [-np.inf, np.inf], limits),
+        "joint_limits": np.where(within[:, None], UNLIMITED, limits),
         "joint_velocity_limits": np.where(slow, np.inf, speeds),
     }
 
 
 def _implied_limits(chain: ChainData) -> Array:
     """Limits (n, 2) of the joints' own values that the coordinates' leave."""
-    return sum_limits(chain.coupling, chain.limits) + chain.offset[:, None]
+    of_coordinates = sum_limits(chain.coupling, chain.limits)
+    return of_coordinates + chain.offset[:, None]
 
 
 def joint_values(chain: ChainData, q: Array) -> Array:
@@ -103,13 +114,16 @@ def reading_speeds(K: Array, speeds: Array) -> Array:
 
 def _speeds(K: Array, speeds: Array) -> Array:
     """Largest speeds (n,) of K r for all r within speeds (m,)."""
-    return sum_limits(K, np.stack([-speeds, speeds], axis=1))[:, 1]
+    both_ways = np.stack([-speeds, speeds], axis=1)
+    return sum_limits(K, both_ways)[:, 1]
 
 
 def _inverse(K: Array) -> Array:
     """K^-1 with zeros where it has nothing but rounding."""
     inverse = np.asarray(np.linalg.inv(K), float)
-    inverse[np.abs(inverse) <= _ROUNDING * np.abs(inverse).max(initial=0.0)] = 0.0
+    sizes = np.abs(inverse)
+    nothing = sizes <= _ROUNDING * sizes.max(initial=0.0)
+    inverse[nothing] = 0.0
     return inverse
 
 
@@ -119,5 +133,6 @@ def sum_limits(K: Array, limits: Array) -> Array:
     for k, row in enumerate(K):
         moving = np.flatnonzero(row)
         reached = row[moving, None] * limits[moving]
-        ends[k] = reached.min(axis=1).sum(), reached.max(axis=1).sum()
+        ends[k, 0] = reached.min(axis=1).sum()
+        ends[k, 1] = reached.max(axis=1).sum()
     return ends

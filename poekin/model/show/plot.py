@@ -25,19 +25,30 @@ def plot(chain: ChainData, q: Any, size: tuple[float, float]) -> Any:
         values = one_configuration(q, chain.q_names)
     frames = pose_jacobian.joint_poses(chain, values)
     tool = pose_jacobian.fk(chain, values)
-    points = np.array([np.zeros(3), *translation_part(frames), translation_part(tool)])
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    half = max(np.ptp(points, axis=0).max() / 2, 0.05)
+    origins = [np.zeros(3), *translation_part(frames), translation_part(tool)]
+    points = np.array(origins)
+    low = points.min(axis=0)
+    high = points.max(axis=0)
+    middle = (low + high) / 2
+    half = max((high - low).max() / 2, 0.05)
 
     figure = svg.new_figure(*size, "plot of an arm")
     axes = figure.add_subplot(projection="3d")
-    axes.plot(*points.T, color=svg.PALE, linewidth=4, solid_capstyle="round", zorder=1)
-    for number, (frame, kind) in enumerate(zip(frames, chain.kinds, strict=True), 1):
+    axes.plot(
+        *points.T,
+        color=svg.PALE,
+        linewidth=4,
+        solid_capstyle="round",
+        zorder=1,
+    )
+    joints = zip(frames, chain.kinds, strict=True)
+    for number, (frame, kind) in enumerate(joints, 1):
         _draw_axis(axes, frame, kind, number, 0.3 * half)
-    for frame, name in ((np.eye(4), chain.base), (tool, chain.tip)):
-        _draw_frame(axes, frame, name, 0.35 * half)
-    box = np.stack([middle - 1.1 * half, middle + 1.1 * half], axis=1)
-    axes.set(xlim=box[0], ylim=box[1], zlim=box[2], xlabel="x, m", ylabel="y, m", zlabel="z, m")
+    _draw_frame(axes, np.eye(4), chain.base, 0.35 * half)
+    _draw_frame(axes, tool, chain.tip, 0.35 * half)
+    box = zip(middle - 1.1 * half, middle + 1.1 * half, strict=True)
+    for name, limits in zip("xyz", box, strict=True):
+        axes.set(**{f"{name}lim": limits, f"{name}label": f"{name}, m"})
     axes.set_box_aspect((1, 1, 1), zoom=0.85)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_pane_color("white")
@@ -49,15 +60,21 @@ def _draw_axis(axes: Any, frame: Array, kind: str, number: int, half: float) -> 
     """A joint: its axis on both sides of the frame's origin, an arrow along +z, and its symbol."""
     origin = translation_part(frame)
     z = frame[:3, 2]
-    line = np.stack([origin - half * z, origin + half * z], axis=1)
-    axes.plot(*line, _OF_KIND[kind], color=svg.INK, linewidth=0.8)
-    axes.quiver(*line[:, 1], *(0.3 * half * z), color=svg.INK, linewidth=0.8, arrow_length_ratio=1)
+    start = origin - half * z
+    end = origin + half * z
+    ink = {"color": svg.INK, "linewidth": 0.8}
+    axes.plot(*np.stack([start, end], axis=1), _OF_KIND[kind], **ink)
+    axes.quiver(*end, *(0.3 * half * z), arrow_length_ratio=1, **ink)
     axes.plot(*origin[:, None], "o", color=svg.INK, markersize=3)
-    axes.text(*(origin + 1.5 * half * z), f"$A_{{{number}}}$", fontsize=9, ha="center", va="center")
+    place = origin + 1.5 * half * z
+    axes.text(*place, f"$A_{{{number}}}$", fontsize=9, ha="center", va="center")
 
 
 def _draw_frame(axes: Any, T: Array, name: str, length: float) -> None:
     """A frame: x, y and z as arrows, and its name."""
-    for direction, color in zip(rotation_part(T).T, AXES_COLORS, strict=True):
-        axes.quiver(*translation_part(T), *(length * direction), color=color, linewidth=1.6)
-    axes.text(*translation_part(T), f"  {svg.label(name, 20)}", fontsize=8, va="top")
+    origin = translation_part(T)
+    directions = length * rotation_part(T).T
+    for direction, color in zip(directions, AXES_COLORS, strict=True):
+        axes.quiver(*origin, *direction, color=color, linewidth=1.6)
+    label = svg.label(name, 20)
+    axes.text(*origin, f"  {label}", fontsize=8, va="top")

@@ -119,17 +119,20 @@ class Follower:
             return k, found.q
         for turn in range(ROUNDS):
             for q0 in self._solutions(k, turn, last):
-                if not any(np.abs(way.rows[0] - q0).max() < 1e-6 for way in ways):
+                if not any(_same(way.rows[0], q0) for way in ways):
                     jump = 0.0 if last is None else norm(q0 - last)
                     ways.append(self._way(k, q0, jump))
             self._race(ways, last is None)
-            found = max(ways, key=lambda way: (way.done, -way.jump), default=found)
-            if found.end == len(self.targets) or not self._solved(found.end):
+            if ways:
+                found = max(ways, key=lambda way: (way.done, -way.jump))
+            at_end = found.end == len(self.targets)
+            if at_end or not self._solved(found.end):
                 break
         return found.end, found.q
 
     def _way(self, k: int, start: Array, jump: float = 0.0) -> _Way:
-        rows = np.empty((len(self.targets) - k + 1, len(start)))
+        count = len(self.targets) - k
+        rows = np.empty((count + 1, len(start)))
         rows[0] = start
         return _Way(k, rows, jump)
 
@@ -144,7 +147,8 @@ class Follower:
             before = max(way.done - 1, 0)
             self._extend(way, way.end + AT_ONCE)
             if moving:
-                steps = np.abs(np.diff(way.q[before:], axis=0))
+                ahead = np.diff(way.q[before:], axis=0)
+                steps = np.abs(ahead)
                 way.jump = float(steps.max(initial=way.jump))
 
     def _extend(self, way: _Way, stop: int, first: bool = False) -> None:
@@ -156,10 +160,12 @@ class Follower:
         done = way.done
         while done < len(targets):
             rest = rows[done + 1 :]
-            done += self._descend(targets[done:], rows[done], rest, first and not done)
+            at_start = first and not done
+            done += self._descend(targets[done:], rows[done], rest, at_start)
             if done in (0, len(targets)):
                 break
-            next_q = self._in_pieces(rows[done], targets[done - 1], targets[done])
+            last = rows[done]
+            next_q = self._in_pieces(last, targets[done - 1], targets[done])
             if next_q is None:
                 break
             done += 1
@@ -188,8 +194,11 @@ class Follower:
         any distance from it.
         """
         if anywhere:
-            done = self._steps(targets[:1], start, q, np.full_like(start, np.inf))
-            return done and 1 + self._descend(targets[1:], q[0], q[1:])
+            any_step = np.full_like(start, np.inf)
+            done = self._steps(targets[:1], start, q, any_step)
+            if not done:
+                return 0
+            return 1 + self._descend(targets[1:], q[0], q[1:])
         done = self._steps(targets, start, q, self.most)
         joints = self.problem.by_joints
         slid = 1
@@ -199,7 +208,8 @@ class Follower:
             slid = self._slide(joints, targets[done:], last, q[done:])
             done += slid
             if slid and done < len(targets):
-                done += self._steps(targets[done:], q[done - 1], q[done:], self.most)
+                last = q[done - 1]
+                done += self._steps(targets[done:], last, q[done:], self.most)
         return done
 
     def _steps(
@@ -212,8 +222,8 @@ class Follower:
         """Number of targets that are followed from `start` until a joint leaves its own limits."""
         limits = self.problem.domain.limits
         done = self._kernel(self.problem.fast, targets, start.copy(), limits, most, q)
-        beyond = np.flatnonzero(~self.problem.keeps_joints(q[:done]))
-        return min([done, *beyond.tolist()])
+        kept = self.problem.keeps_joints(q[:done])
+        return _until(~np.asarray(kept), done)
 
     def _slide(
         self,
@@ -229,12 +239,14 @@ class Follower:
         x = np.empty_like(q)
         most = joints.of_steps(self.most)
         limits = fast.chain.limits.copy()
-        done = self._kernel(fast, targets, joints.of(start), limits, most, x)
+        start = joints.of(start)
+        done = self._kernel(fast, targets, start, limits, most, x)
         found = joints.coordinates(x[:done], np.array([-np.inf, np.inf]))
-        q[:done] = np.clip(found, *self.problem.domain.limits.T)
-        apart = np.abs(found - q[:done]) > WITHIN * (1 + np.abs(found))
-        beyond = np.flatnonzero(apart.any(axis=-1))
-        return min([done, *beyond.tolist()])
+        within = np.clip(found, *self.problem.domain.limits.T)
+        q[:done] = within
+        rounding = WITHIN * (1 + np.abs(found))
+        apart = np.abs(found - within) > rounding
+        return _until(apart.any(axis=-1), done)
 
     def _kernel(
         self,
@@ -250,7 +262,8 @@ class Follower:
 
         info = np.empty((len(targets), codes.INFO))
         asked = (limits, self.problem.locked, self.problem.options, most)
-        return follow_kernels.follow.call(fast.hybrid_address, targets, start, *asked, q, info)
+        address = fast.hybrid_address
+        return follow_kernels.follow.call(address, targets, start, *asked, q, info)
 
     def _in_pieces(
         self,
@@ -267,7 +280,8 @@ class Follower:
             q = np.empty((pieces, len(self.most)))
             if self.problem.underactuated:
                 beside = self._beside(between[:-1], q_a)
-                if self._descend(between[-1:], beside, q[-1:]):
+                only = q[-1:]
+                if self._descend(between[-1:], beside, only):
                     return q[-1]
             elif self._descend(between, q_a, q) == pieces:
                 return q[-1]
@@ -299,8 +313,8 @@ class Follower:
         low = np.clip(q - self.most, *domain.limits.T)
         high = np.clip(q + self.most, *domain.limits.T)
         slope = partial(slope_at, self.problem, target)
-        nearest = least_error(slope, q, domain.held(low), domain.held(high))
-        return np.where(self.problem.keeps_joints(nearest), nearest, q)
+        near = least_error(slope, q, domain.held(low), domain.held(high))
+        return np.where(self.problem.keeps_joints(near), near, q)
 
     def _solutions(
         self,
@@ -315,7 +329,8 @@ class Follower:
         domain = self.problem.domain
         beside = domain.ranges.mean(axis=1) if last is None else last
         if turn == 0:
-            every = every_solution(self.problem, self.targets[k : k + 1], beside[None])
+            target = self.targets[k : k + 1]
+            every = every_solution(self.problem, target, beside[None])
             if every is not None and every.complete.all() and len(every.u):
                 return every.u
         T = np.tile(self.targets[k], (TRIES, 1, 1))
@@ -347,3 +362,14 @@ class Follower:
             self._known = k, solution
         first, solution = self._known
         return solution, k - first
+
+
+def _same(start: Array, other: Array) -> bool:
+    """Whether two starts are one."""
+    return bool(np.abs(start - other).max() < 1e-6)
+
+
+def _until(left: np.ndarray, done: int) -> int:
+    """Number of `done` poses before the first that left its limits."""
+    beyond = np.flatnonzero(left)
+    return min([done, *beyond.tolist()])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ...groups.blocks import translation_part
 from ...model.robot import Robot
 from .. import shapes
 from ..nodes import Attachment, Triangles
+from ..shapes import Surface
 from .find import MeshFinder
 from .kept import parts_of
 from .load import FARTHEST, MeshPart, merged, rgb
@@ -63,29 +65,55 @@ def mesh_nodes(robot: Robot) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]
             drawn.append((visual, parts))
         except FileError as fault:
             what = quote(visual.file or visual.shape, 200)
-            missing.append(LeftOut(visual.link, visual.place, what, str(fault)))
+            fault_of_visual = LeftOut(visual.link, visual.place, what, str(fault))
+            missing.append(fault_of_visual)
     counts = [len(part.faces) for _, parts in drawn for part in parts]
     limit = limit_for(counts, BUDGET)
-    pieces: dict[tuple[str, int | None, float], list[tuple[np.ndarray, np.ndarray]]] = {}
+    pieces: dict[_Look, list[Surface]] = {}
     moved = 0.0
     for visual, parts in drawn:
         opacity = visual.color[3] if visual.color else 1.0
         for part in parts if opacity else ():
             vertices, faces, diagonal = reader.reduced(part, limit)
             moved = max(moved, diagonal * _largest(visual))
-            color = part.color if visual.color is None else rgb(255 * c for c in visual.color)
-            group = pieces.setdefault((visual.link, color, opacity), [])
+            color = part.color
+            if visual.color is not None:
+                color = rgb(255 * c for c in visual.color)
+            group = pieces.setdefault(_Look(visual.link, color, opacity), [])
             group.append(_placed(visual, vertices, faces))
     nodes = []
-    for (link, color, opacity), group in pieces.items():
-        number = robot.links.index(link)
-        attachment = Attachment("meshes", "first", number, name=link, color=color, opacity=opacity)
+    for look, group in pieces.items():
+        attachment = Attachment(
+            "meshes",
+            "first",
+            robot.links.index(look.link),
+            name=look.link,
+            color=look.color,
+            opacity=look.opacity,
+        )
         nodes.append(Triangles(attachment, *shapes.merged(*group)))
     if moved:
-        words = f"{sum(counts)} triangles are drawn as {sum(len(node.faces) for node in nodes)}"
+        left = sum(len(node.faces) for node in nodes)
+        words = f"{sum(counts)} triangles are drawn as {left}"
         why = f"no vertex is more than {moved * 1e3:.2g} mm off"
         missing.append(LeftOut("", str(robot.source), words, why))
     return tuple(nodes), tuple(missing)
+
+
+class _Look(NamedTuple):
+    """A link, and the colour and opacity of a part of what is drawn of it."""
+
+    link: str
+    color: int | None
+    opacity: float
+
+
+class _Reduced(NamedTuple):
+    """A part with fewer triangles, and how far a vertex may be off, in the part's own unit."""
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    off: float
 
 
 class _Reader:
@@ -95,20 +123,22 @@ class _Reader:
         self.finder = MeshFinder(str(robot.source))
         self.left = MOST_BYTES
         self.files: dict[str, tuple[MeshPart, ...]] = {}
-        self.primitives: dict[tuple[str, tuple[float, ...]], tuple[MeshPart, ...]] = {}
-        self.smaller: dict[int, tuple[np.ndarray, np.ndarray, float]] = {}
+        self.primitives: dict[tuple, tuple[MeshPart, ...]] = {}
+        self.smaller: dict[int, _Reduced] = {}
 
     def parts(self, visual: Visual) -> tuple[MeshPart, ...]:
         """Triangles of a shape. Raises: FileError."""
         if visual.triangles is not None:
             vertices, faces = visual.triangles
-            if not len(faces) or faces.min() < 0 or faces.max() >= len(vertices):
+            exist = (faces >= 0) & (faces < len(vertices))
+            if not len(faces) or not exist.all():
                 raise FileError("a face has a vertex that does not exist")
             return (MeshPart(*merged([visual.triangles]), None),)
         if visual.shape != "mesh":
             key = (visual.shape, visual.size)
             if key not in self.primitives:
-                self.primitives[key] = (MeshPart(*_primitive(visual), None),)
+                vertices, faces = _primitive(visual)
+                self.primitives[key] = (MeshPart(vertices, faces, None),)
             return self.primitives[key]
         path = self.finder.find(visual.file)
         if path not in self.files:
@@ -118,15 +148,16 @@ class _Reader:
             self.files[path] = parts_of(path)
         return self.files[path]
 
-    def reduced(self, part: MeshPart, limit: int) -> tuple[np.ndarray, np.ndarray, float]:
+    def reduced(self, part: MeshPart, limit: int) -> _Reduced:
         """MeshPart with so many triangles at most, and how far a vertex may be off, in its own unit."""
         known = id(part.faces)  # which the files, primitives and visuals keep
         if known not in self.smaller:
-            self.smaller[known] = reduced(part.vertices, part.faces, limit)
+            fewer = reduced(part.vertices, part.faces, limit)
+            self.smaller[known] = _Reduced(*fewer)
         return self.smaller[known]
 
 
-def _primitive(visual: Visual) -> tuple[np.ndarray, np.ndarray]:
+def _primitive(visual: Visual) -> Surface:
     """Triangles of a shape that is no mesh."""
     size = visual.size
     if visual.shape == "box":
@@ -135,14 +166,14 @@ def _primitive(visual: Visual) -> tuple[np.ndarray, np.ndarray]:
         return shapes.cylinder(*size, sides=32)
     if visual.shape == "capsule":
         radius, length = size
-        return shapes.capsule((0, 0, -length / 2), (0, 0, length / 2), radius, 32)
+        end = np.array([0.0, 0.0, length / 2])
+        return shapes.capsule(-end, end, radius, 32)
     unit = shapes.sphere()
-    return unit.vertices * (size * 3)[:3], unit.faces
+    factors = (size * 3)[:3]
+    return Surface(unit.vertices * factors, unit.faces)
 
 
-def _placed(
-    visual: Visual, vertices: np.ndarray, faces: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _placed(visual: Visual, vertices: np.ndarray, faces: np.ndarray) -> Surface:
     """Triangles in the frame of their link, facing outwards still where a factor mirrors them."""
     points = np.asarray(vertices, dtype=float)
     if visual.shape == "mesh":
@@ -151,17 +182,24 @@ def _placed(
         points = points * visual.size
         if np.prod(visual.size) < 0:
             faces = faces[:, ::-1]
-    return shapes.transformed(points, visual.T_link_visual), faces
+    return Surface(shapes.transformed(points, visual.T_link_visual), faces)
 
 
 def _largest(visual: Visual) -> float:
     """Largest factor by which a shape's lengths are drawn."""
-    return max(map(abs, visual.size)) if visual.shape == "mesh" else 1.0
+    if visual.shape != "mesh":
+        return 1.0
+    return max(map(abs, visual.size))
 
 
 def _farthest(visual: Visual, parts: tuple[MeshPart, ...]) -> float:
     """Bound on the coordinates of a shape in its link's frame."""
-    farthest = max(float(np.abs(part.vertices).max(initial=0.0)) for part in parts)
+    farthest = max(_largest_entry(part.vertices) for part in parts)
     if visual.T_mesh is not None:
-        farthest += float(np.abs(translation_part(visual.T_mesh)).max())
-    return farthest * _largest(visual) + float(np.abs(translation_part(visual.T_link_visual)).max())
+        farthest += _largest_entry(translation_part(visual.T_mesh))
+    origin = _largest_entry(translation_part(visual.T_link_visual))
+    return farthest * _largest(visual) + origin
+
+
+def _largest_entry(numbers: np.ndarray) -> float:
+    return float(np.abs(numbers).max(initial=0.0))

@@ -10,7 +10,7 @@ import numpy as np
 
 from ....groups import se3
 from ....groups.arrays import Array
-from ....groups.vectors import applied, norms
+from ....groups.vectors import applied
 from ...axis_lines import Marks
 from .alignments import Alignments, Rows
 from .lines import Sides
@@ -75,7 +75,7 @@ def _step(r: Array, J: Array, damping: Array) -> Array:
     """The steps (m, 6 + n) that lessen residuals r (m, rows) most, held back in proportion to the
     damping (m,).
     """
-    scale = norms(J)
+    scale = np.linalg.norm(J, axis=1)
     most = scale.max(axis=1, keepdims=True)
     scale = np.where(scale < 1e-6 * most, most, scale)
     scale[scale == 0] = 1.0  # where nothing is to be moved

@@ -21,23 +21,28 @@ def with_link(pair: Sides, readings: list[Hypothesis]) -> list[Hypothesis]:
     be among them though it seems unmoved.
     """
     # Where nothing is in front, it is the base that moved.
-    behind_each = [(r, k) for r in readings for k in range(1, pair.n - 1)]
-    tries = [(r, k) for r, k in behind_each if (r.moved | pair.a.slides)[k:].all()]
+    tries = []
+    for reading in readings:
+        differs = reading.moved | pair.a.slides
+        tries += [(reading, k) for k in range(1, pair.n - 1) if differs[k:].all()]
     at = _alignments(pair, [reading for reading, _ in tries])
     # What the axes leave free stays where it starts: with the tool where it is.
     last = pair.carriers(at)[:, -1]
-    at.P[:] = pair.tool_as_it_stands.P @ se3.inverse(last) @ at.P
-    ks = np.array([[k] for _, k in tries]).reshape(-1, 1)
+    back = se3.inverse(last)
+    at.P[:] = pair.tool_as_it_stands.P @ back @ at.P
+    ks = np.array([k for _, k in tries], int)[:, None]
     behind = np.arange(pair.n) >= ks
     fitted = fit(pair, at, False, behind)
     tools = tool_behind(pair, pair.carriers(fitted)[:, -1])
     apart = behind & (pair.deviations(fitted) > 1.0)
     fits = still(tools, pair.tol) & ~apart.any(1)
     found: dict[int, Hypothesis] = {}
-    for (reading, k), tool, fitting in zip(tries, tools, fits, strict=True):
+    rows = zip(tries, tools, fits, strict=True)
+    for (reading, k), tool, fitting in rows:
         if fitting:
             frames = int(not still(reading.base, pair.tol))
-            found.setdefault(id(reading), replace(reading, tool=tool, frames=frames, link=k))
+            linked = replace(reading, tool=tool, frames=frames, link=k)
+            found.setdefault(id(reading), linked)
     return list(found.values())
 
 
@@ -49,7 +54,8 @@ def with_front_link(pair: Sides, reading: Hypothesis) -> Hypothesis | None:
     to.
     """
     first = np.logical_and.accumulate(reading.moved | pair.a.slides)
-    k = 1 + int(np.flatnonzero(first & reading.moved).max(initial=-1))
+    last_moved = np.flatnonzero(first & reading.moved).max(initial=-1)
+    k = 1 + int(last_moved)
     if reading.link or not 2 <= k < pair.n:
         return None
     at = _alignments(pair, [reading])
@@ -57,19 +63,21 @@ def with_front_link(pair: Sides, reading: Hypothesis) -> Hypothesis | None:
     front = np.arange(pair.n) < k
     fitted = fit(pair, at, False, front)
     (found,) = make_hypotheses(pair, fitted)
-    if found.moved[front].any() or not still(found.base, pair.tol):
+    moved_in_front = found.moved[front].any()
+    if moved_in_front or not still(found.base, pair.tol):
         return None
     if (found.directions != reading.directions).any():
         return None
     own = reading.moved & ~front
     rows = own[:, None]
+    matrices = own[:, None, None]
     return replace(
         found,
         tool=reading.tool,
         moved=found.moved | own,
         offset=reading.offset,
         axes=np.where(rows, reading.axes, found.axes),
-        carriers=np.where(rows[..., None], reading.carriers, found.carriers),
+        carriers=np.where(matrices, reading.carriers, found.carriers),
         deviations=np.where(own, reading.deviations, found.deviations),
         frames=int(not still(reading.tool, pair.tol)),
         link=k,
@@ -79,6 +87,8 @@ def with_front_link(pair: Sides, reading: Hypothesis) -> Hypothesis | None:
 
 def _alignments(pair: Sides, readings: list[Hypothesis]) -> Alignments:
     """The alignments, about the arms' centres, that readings stand for."""
-    P = np.array([reading.base for reading in readings]).reshape(-1, 4, 4)
-    z = np.array([reading.zeros for reading in readings]).reshape(-1, pair.n)
+    bases = [reading.base for reading in readings]
+    zeros = [reading.zeros for reading in readings]
+    P = np.reshape(bases, (-1, 4, 4))
+    z = np.reshape(zeros, (-1, pair.n))
     return Alignments(pair.on_centre(P), z)

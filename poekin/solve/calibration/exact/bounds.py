@@ -16,7 +16,7 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from ....groups.arrays import Array
-from ....groups.blocks import linear_part
+from ....groups.blocks import angular_part, linear_part
 from ....groups.vectors import norms
 from ....model.checks import read_only
 from ..diagnostics.identification import RANK
@@ -65,11 +65,13 @@ def propagation(found: CalibrationData, q: Array, poses: Poses) -> Propagation:
     lengths = [parameter.unit == "m" for parameter in found.parameters]
     scale = np.where(lengths, found.nominal.reach, 1.0)
     whitened = J / deviations[:, None] * scale
-    inverse = np.linalg.pinv(whitened.reshape(-1, len(scale)), rcond=RANK)
+    rows = whitened.reshape(-1, len(scale))
+    inverse = np.linalg.pinv(rows, rcond=RANK)
     gain = scale[:, None] * inverse
     gain = gain.reshape(len(scale), -1, 6) / deviations
     hybrid = found.chain.jacobian(q, "hybrid")
-    return Propagation(*map(read_only, (errors, J, gain, hybrid, deviations)))
+    parts = (errors, J, gain, hybrid, deviations)
+    return Propagation(*map(read_only, parts))
 
 
 def worst_case(Y: Array, fit: Propagation, largest: ReadingErrors) -> Array:
@@ -77,16 +79,22 @@ def worst_case(Y: Array, fit: Propagation, largest: ReadingErrors) -> Array:
     rows = Y.reshape(-1, Y.shape[-1])
     gain = fit.gain[: rows.shape[1]]
     off = largest.joints > 0
-    joints = np.einsum("pni,nik->pnk", gain, fit.jacobian[..., off]) * largest.joints[off]
+    moving = fit.jacobian[..., off]
+    joints = np.einsum("pni,nik->pnk", gain, moving) * largest.joints[off]
+    positions = linear_part(gain) * largest.position
+    rotations = angular_part(gain) * largest.rotation
     # what counts by itself, and what counts by the length of three numbers
-    lines = np.concatenate([joints, gain[..., 3:] * largest.position], axis=2)
-    turns = np.moveaxis(gain[..., :3] * largest.rotation, 2, 0)
+    lines = np.concatenate([joints, positions], axis=2)
+    turns = np.moveaxis(rotations, 2, 0)
     bound = np.zeros(len(rows))
-    count = 1 + _AT_ONCE // (1 + len(rows) * lines.shape[2])
+    numbers = 1 + len(rows) * lines.shape[2]
+    count = 1 + _AT_ONCE // numbers
     for start in range(0, len(fit.errors), count):
         some = slice(start, start + count)
-        bound += np.abs(rows @ lines[:, some].reshape(len(lines), -1)).sum(axis=1)
-        bound += np.linalg.norm(rows @ turns[..., some], axis=0).sum(axis=1)
+        each = lines[:, some].reshape(len(lines), -1)
+        bound += np.abs(rows @ each).sum(axis=1)
+        turned = np.linalg.norm(rows @ turns[..., some], axis=0)
+        bound += turned.sum(axis=1)
     return bound.reshape(Y.shape[:-1])
 
 
@@ -98,15 +106,19 @@ def screw_bounds(found: CalibrationData, fit: Propagation, largest: ReadingError
     by a^2 |v| / 2 + a s: twice that is added.
     """
     chain = found.chain
-    first = worst_case(found.error_model.screw_jacobian(found.values), fit, largest)
+    J = found.error_model.screw_jacobian(found.values)
+    first = worst_case(J, fit, largest)
     tilt, shift = norms(first.reshape(-1, 2, 3)).T
     moments = norms(linear_part(chain.screws))
     turned = tilt**2 + ROUNDING
-    moved = tilt**2 * moments + 2.0 * tilt * shift + ROUNDING * (chain.reach + moments)
-    return first + np.repeat(np.stack([turned, moved], axis=1), 3, axis=1)
+    rounding = ROUNDING * (chain.reach + moments)
+    moved = tilt**2 * moments + 2.0 * tilt * shift + rounding
+    second = np.stack([turned, moved], axis=1)
+    return first + np.repeat(second, 3, axis=1)
 
 
 def pose_jacobian(model: ErrorModel, p: Array, q: Array) -> Array:
     """Derivatives (N, 6, P) of the pose's rotation vector and position, in base axes, at q (N, m)."""
     T, D = model.poses_and_twists(p, q)
-    return pose_error_jacobian(T, np.zeros((len(T), 6)), D)
+    no_errors = np.zeros((len(T), 6))
+    return pose_error_jacobian(T, no_errors, D)

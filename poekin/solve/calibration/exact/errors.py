@@ -44,7 +44,8 @@ class Digits(NamedTuple):
     @property
     def halves(self) -> Array:
         """Half a unit of the last digit of rotations, rad, and positions, m; 0 without digits."""
-        return np.array([_half(self.rotations and self.rotations.grid), _half(self.positions)])
+        rotations = self.rotations and self.rotations.grid
+        return np.array([_half(rotations), _half(self.positions)])
 
     def __str__(self) -> str:
         named = {
@@ -52,7 +53,8 @@ class Digits(NamedTuple):
             "joint lengths": self.lengths,
             "positions": self.positions,
         }
-        parts = [f"{name} to {grid}" for name, grid in named.items() if grid is not None]
+        found = {name: grid for name, grid in named.items() if grid is not None}
+        parts = [f"{name} to {grid}" for name, grid in found.items()]
         if self.rotations is not None:
             parts.append(f"rotations ({self.rotations.what}) to {self.rotations.grid}")
         return ", ".join(parts)
@@ -82,9 +84,11 @@ class _Expected(NamedTuple):
 def printed_digits(chain: Chain, q: Array, T: Array) -> Digits:
     """Digits of readings (N, m) and poses (N, 4, 4) as they were printed."""
     turns = angle_mask(chain)
+    angles = q[:, turns]
+    lengths = q[:, ~turns]
     return Digits(
-        angles=angle_grid(q[:, turns]) if turns.any() else None,
-        lengths=length_grid(q[:, ~turns]) if not turns.all() else None,
+        angles=angle_grid(angles) if angles.size else None,
+        lengths=length_grid(lengths) if lengths.size else None,
         positions=length_grid(translation_part(T)),
         rotations=rotation_grid(rotation_part(T)),
     )
@@ -108,7 +112,8 @@ def judge(printed: Digits, fit: Propagation, chain: Chain) -> Judged:
     allowed = np.maximum(expected.deviations, LIMITS * sizes)
     unknown = digits.halves == 0
     beyond = expected.too_large and not unknown.all()
-    beyond |= bool((unknown & (deviations > _MARGIN * allowed)).any())
+    far = deviations > _MARGIN * allowed
+    beyond |= bool((unknown & far).any())
     rounded = digits.halves
     if digits.rotations is not None:
         rounded[0] = digits.rotations.radius
@@ -166,32 +171,48 @@ def _expected(digits: Digits, fit: Propagation, left: Array, chain: Chain) -> _E
     """
     joints = _joint_errors(digits, chain)
     halves = digits.halves
+    sizes = np.array([1.0, chain.reach])
     known = np.repeat((halves > 0) | ~halves.any(), 3)
-    halves = np.maximum(halves, ROUNDING * np.array([1.0, chain.reach]))
+    halves = np.maximum(halves, ROUNDING * sizes)
     moved = fit.jacobian * joints
-    covariance = (moved @ np.swapaxes(moved, 1, 2) + np.diag(np.repeat(halves**2, 3))) / 3.0
-    variances = np.mean(np.diagonal(covariance, axis1=1, axis2=2), axis=0)
-    weighted = (covariance / np.outer(fit.deviations, fit.deviations))[:, known][:, :, known]
-    squares = np.diagonal(weighted, axis1=1, axis2=2).sum(axis=0)
-    mean = float(squares @ left[known]) / len(fit.errors)
-    freedom = max(1.0, mean * float(squares.sum()) / float(np.sum(weighted**2)))
-    found = freedom * float(np.sum((fit.errors / fit.deviations)[:, known] ** 2))
+    of_joints = moved @ np.swapaxes(moved, 1, 2)
+    of_poses = np.diag(np.repeat(halves**2, 3))
+    covariance = (of_joints + of_poses) / 3.0
+    variances = _diagonals(covariance).mean(axis=0)
+    whitened = covariance / np.outer(fit.deviations, fit.deviations)
+    weighted = whitened[:, known][:, :, known]
+    squares = _diagonals(weighted).sum(axis=0)
+    errors = (fit.errors / fit.deviations)[:, known]
+    mean = float(squares @ left[known]) / len(errors)
+    total = float(np.sum(weighted**2))
+    freedom = max(1.0, mean * float(squares.sum()) / total)
+    found = freedom * float(np.sum(errors**2))
+    of_each = variances.reshape(2, 3).mean(axis=1)
     return _Expected(
         too_small=found * _MARGIN < mean * chi_square(freedom, -_SURE),
         too_large=found > _MARGIN * mean * chi_square(freedom, _SURE),
-        deviations=np.sqrt(variances.reshape(2, 3).mean(axis=1)),
+        deviations=np.sqrt(of_each),
     )
+
+
+def _diagonals(matrices: Array) -> Array:
+    """Diagonals (N, k) of matrices (N, k, k)."""
+    return np.diagonal(matrices, axis1=1, axis2=2)
 
 
 def _deviations(fit: Propagation, left: Array) -> Array:
     """Standard deviations (2,) of the residuals, rad and m, without what the parameters took up."""
-    squares = np.sum(fit.errors.reshape(-1, 2, 3) ** 2, axis=(0, 2))
-    return np.sqrt(squares / np.maximum(left.reshape(2, 3).sum(axis=1), 1.0))
+    errors = fit.errors.reshape(-1, 2, 3)
+    squares = np.sum(errors**2, axis=(0, 2))
+    freedom = left.reshape(2, 3).sum(axis=1)
+    return np.sqrt(squares / np.maximum(freedom, 1.0))
 
 
 def _joint_errors(digits: Digits, chain: Chain) -> Array:
     """Largest error (m,) of each coordinate, rad or m."""
-    return np.where(angle_mask(chain), _half(digits.angles), _half(digits.lengths))
+    angle = _half(digits.angles)
+    length = _half(digits.lengths)
+    return np.where(angle_mask(chain), angle, length)
 
 
 def _half(grid: DecimalGrid | None) -> float:

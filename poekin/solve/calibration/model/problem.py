@@ -4,7 +4,7 @@ parameters.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -27,6 +27,14 @@ class Linear(NamedTuple):
     jacobian: Array
 
 
+class _Points(NamedTuple):
+    """Measured points of all sets: rows (K,) of q, and places and errors (K, 3) in the base frame."""
+
+    rows: Rows
+    places: Array
+    errors: Array
+
+
 class Problem:
     """An error model, the readings q, sets of measurements, and their unknown frames at p = 0.
 
@@ -45,7 +53,8 @@ class Problem:
         self.q = q
         self.sets = tuple(sets)
         self.rows = [rows_of(s, len(q)) for s in self.sets]
-        self._own = [_frame_names(k, self.sets) for k in range(len(self.sets))]
+        numbers = range(len(self.sets))
+        self._own = [_frame_names(k, self.sets) for k in numbers]
         named = list(model.parameters)
         self._parts: dict[str, slice] = {}
         for s, own in zip(self.sets, self._own, strict=True):
@@ -67,8 +76,9 @@ class Problem:
         """Initial guesses of the unknown frames: of those that sets share, by the largest set."""
         T = self.model.nominal.fk(self.q)
         found: dict[str, Array] = {}
-        parts = zip(self.sets, self._own, self.rows, strict=True)
-        for s, own, rows in sorted(parts, key=lambda part: -len(part[0])):
+        parts = list(zip(self.sets, self._own, self.rows, strict=True))
+        parts.sort(key=lambda part: -len(part[0]))
+        for s, own, rows in parts:
             known = [
                 unknown._replace(guess=found.get(name, unknown.guess))
                 for name, unknown in zip(own, s.unknown_frames, strict=True)
@@ -94,8 +104,10 @@ class Problem:
 
     def frame_values(self, p: Array) -> dict[str, Array]:
         """The unknown frames (4, 4) and points (3,) at p, by name."""
-        pairs = zip(self.initial_frames, self._parts.items(), strict=True)
-        return {name: _moved(frame, p[part]) for frame, (name, part) in pairs}
+        values = {}
+        for frame, name in zip(self.initial_frames, self._parts, strict=True):
+            values[name] = _moved(frame, p[self._parts[name]])
+        return values
 
     def _frames_of_sets(self, p: Array) -> list[list[Array]]:
         """The unknown frames of each set at p."""
@@ -108,34 +120,45 @@ class Problem:
 
     def residual_vectors(self, before: Array, after: Array) -> ResidualVectors:
         """Residuals of all measured points before and after a fit, as vectors in the base frame."""
-        _, nominal = self._places_and_errors(before)
-        places, calibrated = self._places_and_errors(after)
-        rows = [np.repeat(r, e.shape[1]) for r, e in zip(self.rows, nominal, strict=True)]
-        parts = (
-            np.concatenate([part.reshape(-1, 3) for part in every])
-            for every in (places, nominal, calibrated)
-        )
-        return ResidualVectors(self.q, np.concatenate(rows), *parts)
+        old = self._points(before)
+        new = self._points(after)
+        return ResidualVectors(self.q, new.rows, new.places, old.errors, new.errors)
 
-    def _places_and_errors(self, p: Array) -> tuple[list[Array], list[Array]]:
-        T = self.model.poses(p[: self.model_size], self.q)
-        parts = zip(self.sets, self.rows, self._frames_of_sets(p), strict=True)
-        pairs = [places_and_errors(s, T[rows], frames) for s, rows, frames in parts]
-        return [place for place, _ in pairs], [error for _, error in pairs]
+    def _points(self, p: Array) -> _Points:
+        all_rows = []
+        all_places = []
+        all_errors = []
+        for (s, T, frames), rows in zip(self._at(p), self.rows, strict=True):
+            places, errors = places_and_errors(s, T, frames)
+            all_rows.append(np.repeat(rows, errors.shape[1]))
+            all_places.append(places.reshape(-1, 3))
+            all_errors.append(errors.reshape(-1, 3))
+        return _Points(*map(np.concatenate, (all_rows, all_places, all_errors)))
+
+    def _at(self, p: Array) -> Iterator[tuple[Measurement, Array, list[Array]]]:
+        """Each set with the poses of its readings and its unknown frames."""
+        T = self.model.poses(self._of_model(p), self.q)
+        frames_of_sets = self._frames_of_sets(p)
+        for s, rows, frames in zip(self.sets, self.rows, frames_of_sets, strict=True):
+            yield s, T[rows], frames
+
+    def _of_model(self, p: Array) -> Array:
+        """The error model's part of the parameters."""
+        return p[: self.model_size]
 
     def errors(self, p: Array) -> list[Array]:
         """The errors (N, d) of each set."""
-        return self._last_errors(p.tobytes(), lambda: self._errors(p))
+        key = p.tobytes()
+        return self._last_errors(key, lambda: self._errors(p))
 
     def _errors(self, p: Array) -> list[Array]:
-        T = self.model.poses(p[: self.model_size], self.q)
-        parts = zip(self.sets, self.rows, self._frames_of_sets(p), strict=True)
-        return [read_only(s.errors(T[rows], frames)) for s, rows, frames in parts]
+        return [read_only(s.errors(T, frames)) for s, T, frames in self._at(p)]
 
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their Jacobian."""
         errors = self.errors(p)
-        return list(map(Linear, errors, self.jacobians(p, errors=errors)))
+        jacobians = self.jacobians(p, errors=errors)
+        return list(map(Linear, errors, jacobians))
 
     def jacobians(
         self,
@@ -152,17 +175,21 @@ class Problem:
         if q is None:
             q = self.q
         else:
-            rows = [np.arange(len(q))] * len(self.sets)
+            every = np.arange(len(q))
+            rows = [every] * len(self.sets)
         if errors is None:
-            errors = [np.zeros((len(r), s.width)) for r, s in zip(rows, self.sets, strict=True)]
-        T, D = self.model.poses_and_twists(p[: self.model_size], q)
+            shapes = [(len(r), s.width) for r, s in zip(rows, self.sets, strict=True)]
+            errors = list(map(np.zeros, shapes))
+        T, D = self.model.poses_and_twists(self._of_model(p), q)
         found = []
         for k, frames in enumerate(self._frames_of_sets(p)):
             here = rows[k]
-            of_model, of_frames = self.sets[k].jacobian(T[here], frames, errors[k], D[here])
-            jacobian = np.zeros((*errors[k].shape, self.size))
+            off = errors[k]
+            of_model, of_frames = self.sets[k].jacobian(T[here], frames, off, D[here])
+            jacobian = np.zeros((*off.shape, self.size))
             jacobian[..., : self.model_size] = of_model
-            for name, of_frame in zip(self._own[k], of_frames, strict=True):
+            own = self._own[k]
+            for name, of_frame in zip(own, of_frames, strict=True):
                 part = self._parts[name]
                 if of_frame.shape[2] == 6:
                     # at T e^eta with eta != 0 the frame moves by J_r(eta) d eta

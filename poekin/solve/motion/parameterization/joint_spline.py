@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
-from ....groups.vectors import norms
+from ....groups.vectors import norm, norms
 
 SAME_POINT = 1e-6
 """Points nearer than this share of the longest step are one point: what lies between them is the
@@ -35,18 +35,21 @@ class JointSpline(NamedTuple):
         last = len(self.knots) - 2
         k = np.searchsorted(self.knots, s, side="right") - 1
         k = np.clip(k, 0, last)
-        h = (self.knots[k + 1] - self.knots[k])[..., None]
-        b = (s - self.knots[k])[..., None] / h
+        start = self.knots[k]
+        h = (self.knots[k + 1] - start)[..., None]
+        b = (s - start)[..., None] / h
         a = 1.0 - b
         q_a = self.q[k]
         q_b = self.q[k + 1]
         second_a = self.second[k]
         second_b = self.second[k + 1]
-        sag = (a**3 - a) * second_a + (b**3 - b) * second_b
-        tilt = (3 * b * b - 1) * second_b - (3 * a * a - 1) * second_a
+        sag_a = (a**3 - a) * second_a
+        sag_b = (b**3 - b) * second_b
+        tilt_a = (3 * a * a - 1) * second_a
+        tilt_b = (3 * b * b - 1) * second_b
         return PathDerivatives(
-            a * q_a + b * q_b + h * h / 6 * sag,
-            (q_b - q_a) / h + h / 6 * tilt,
+            a * q_a + b * q_b + h * h / 6 * (sag_a + sag_b),
+            (q_b - q_a) / h + h / 6 * (tilt_b - tilt_a),
             a * second_a + b * second_b,
         )
 
@@ -57,7 +60,8 @@ def distinct_points(q: Array) -> np.ndarray:
     least = SAME_POINT * steps.max(initial=0.0)
     kept = [0]
     for k in range(1, len(q)):
-        if np.linalg.norm(q[k] - q[kept[-1]]) > least:
+        last = q[kept[-1]]
+        if norm(q[k] - last) > least:
             kept.append(k)
     return np.array(kept)
 
@@ -68,18 +72,24 @@ def make_joint_spline(q: Array) -> JointSpline:
     The third derivative is continuous at the second point and the last but one ("not a knot", as
     SciPy's `CubicSpline`): two points give a line, three a parabola, four one cubic.
     """
-    h = norms(np.diff(q, axis=0))
-    knots = np.concatenate([[0.0], np.cumsum(h)])
+    steps = np.diff(q, axis=0)
+    knots = np.concatenate([[0.0], np.cumsum(norms(steps))])
     h = np.diff(knots)
-    slopes = np.diff(q, axis=0) / h[:, None]
+    slopes = steps / h[:, None]
+    bends = np.diff(slopes, axis=0)
     second = np.zeros_like(q)
     if len(q) == 3:
-        second[:] = 2 * (slopes[1] - slopes[0]) / (h[0] + h[1])
+        second[:] = 2 * bends[0] / (h[0] + h[1])
     elif len(q) > 3:
-        second[1:-1] = _inner(h, 6 * np.diff(slopes, axis=0))
-        second[0] = second[1] + h[0] / h[1] * (second[1] - second[2])
-        second[-1] = second[-2] + h[-1] / h[-2] * (second[-2] - second[-3])
+        second[1:-1] = _inner(h, 6 * bends)
+        second[0] = _continued(second[1], second[2], h[0] / h[1])
+        second[-1] = _continued(second[-2], second[-3], h[-1] / h[-2])
     return JointSpline(knots, q, second)
+
+
+def _continued(end: Array, before: Array, ratio: float) -> Array:
+    """Value at an outer knot on the line through the two before it, whose lengths have a ratio."""
+    return end + ratio * (end - before)
 
 
 def _inner(h: Array, right: Array) -> Array:
@@ -91,10 +101,12 @@ def _inner(h: Array, right: Array) -> Array:
     diagonal = 2 * (h[:-1] + h[1:])
     above = h[1:].copy()
     below = h[:-1].copy()
-    diagonal[0] += h[0] * (1 + h[0] / h[1])
-    above[0] -= h[0] * (h[0] / h[1])
-    diagonal[-1] += h[-1] * (1 + h[-1] / h[-2])
-    below[-1] -= h[-1] * (h[-1] / h[-2])
+    first = h[0] / h[1]
+    last = h[-1] / h[-2]
+    diagonal[0] += h[0] * (1 + first)
+    above[0] -= h[0] * first
+    diagonal[-1] += h[-1] * (1 + last)
+    below[-1] -= h[-1] * last
     solved = right.copy()
     for k in range(1, len(diagonal)):
         share = below[k] / diagonal[k - 1]
@@ -102,5 +114,6 @@ def _inner(h: Array, right: Array) -> Array:
         solved[k] -= share * solved[k - 1]
     solved[-1] /= diagonal[-1]
     for k in range(len(diagonal) - 2, -1, -1):
-        solved[k] = (solved[k] - above[k] * solved[k + 1]) / diagonal[k]
+        known = above[k] * solved[k + 1]
+        solved[k] = (solved[k] - known) / diagonal[k]
     return solved

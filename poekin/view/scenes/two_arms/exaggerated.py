@@ -21,6 +21,7 @@ from ....analysis.compare.comparison import NOISE, Comparison
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ....groups.blocks import angular_part, linear_part
+from ....groups.vectors import norm
 from ....model.chain import Chain
 from ..arm_parts.of_chain import chain_geometry
 
@@ -62,14 +63,16 @@ class Exaggerated(NamedTuple):
 def zeros_and_directions(found: Comparison) -> tuple[Array, Array]:
     """Positions of b's joints when a's are at 0, rad or m, and their signs, ±1."""
     zeros = np.array([joint.zero_offset for joint in found.joints])
-    return zeros, np.array([-1.0 if joint.reversed else 1.0 for joint in found.joints])
+    signs = [-1.0 if joint.reversed else 1.0 for joint in found.joints]
+    return zeros, np.array(signs)
 
 
 def compared_rows(found: Comparison) -> list[int]:
     """Numbers of a's joints that were compared with b's."""
     more = found.unmatched_joints or ("b",)
     dropped = more[1:] if more[0] == "a" else ()
-    return [k for k, name in enumerate(found.a.joint_names) if name not in dropped]
+    names = enumerate(found.a.joint_names)
+    return [k for k, name in names if name not in dropped]
 
 
 def exaggerated(found: Comparison) -> Exaggerated:
@@ -81,28 +84,35 @@ def exaggerated(found: Comparison) -> Exaggerated:
         return _assembled(b, moves, 1.0)
     # poses in a's base of what b's joints carry at a's zeros: base e^{B_1 z_1} ... e^{B_i z_i}
     base = np.eye(4) if found.base is None else found.base
-    carriers = base @ chain_geometry(b).poses(zeros_and_directions(found)[0])
+    zeros, _ = zeros_and_directions(found)
+    carriers = base @ chain_geometry(b).poses(zeros)
+    to_a = se3.adjoint(carriers)
+    to_b = se3.adjoint(se3.inverse(carriers))
     ours = lines(a)
-    sizes = [0.0]
-    for i, (k, joint) in enumerate(zip(compared_rows(found), found.joints, strict=True)):
+    centre = ours.centre
+    largest = 0.0
+    rows = zip(compared_rows(found), found.joints, strict=True)
+    for i, (k, joint) in enumerate(rows):
         if joint.axis_differs:
-            axes = np.stack([a.screws[k], se3.adjoint(carriers[i]) @ b.screws[i]])
+            axes = np.stack([a.screws[k], to_a[i] @ b.screws[i]])
             slides = np.array([prismatic(a)[k], prismatic(b)[i]])
-            move = _motion(axes, slides, ours.places[k] + ours.centre)
-            sizes.append(_size(move, ours.centre, a.reach))
-            moves[i] = se3.adjoint(se3.inverse(carriers[i])) @ move
+            move = _motion(axes, slides, ours.places[k] + centre)
+            largest = max(largest, _size(move, centre, a.reach))
+            moves[i] = to_b[i] @ move
     factor = 1.0
-    if max(sizes) > NOISE:
-        factor = visible_factor(max(sizes), a.reach)
-    tool = se3.log(carriers[-1] @ b.home @ se3.inverse(a.home))
-    if factor * _size(tool, ours.centre, a.reach) < a.reach:
-        moves[-1] = se3.adjoint(se3.inverse(carriers[-1])) @ tool
+    if largest > NOISE:
+        factor = visible_factor(largest, a.reach)
+    tip_of_b = carriers[-1] @ b.home
+    tool = se3.log(tip_of_b @ se3.inverse(a.home))
+    if factor * _size(tool, centre, a.reach) < a.reach:
+        moves[-1] = to_b[-1] @ tool
     return _assembled(b, moves, factor)
 
 
 def visible_factor(largest: float, size: float, steps: Iterable[float] = STEPS) -> float:
     """The first of some factors by which a length stays within `VISIBLE` of a size; else 1."""
-    return next((k for k in steps if k * largest <= VISIBLE * size), 1.0)
+    most = VISIBLE * size
+    return next((k for k in steps if k * largest <= most), 1.0)
 
 
 def _motion(axes: Array, slides: Marks, point: Array) -> Array:
@@ -112,8 +122,9 @@ def _motion(axes: Array, slides: Marks, point: Array) -> Array:
     own, other = direction(axes, slides)
     if own @ other < 0:
         other = -other
+    cosine = own @ other
     across = so3.hat(np.cross(own, other))
-    R = np.eye(3) + across + across @ across / (1 + own @ other)
+    R = np.eye(3) + across + across @ across / (1 + cosine)
     p = point - R @ point
     if not slides.any():
         gap = place(axes[1]) - point
@@ -125,28 +136,31 @@ def _size(move: Array, centre: Array, reach: float) -> float:
     """Length that a difference is seen as near the arm's middle: a shift, or a tilt over a tenth of
     the reach.
     """
-    shift = linear_part(move) + np.cross(angular_part(move), centre)
-    return float(np.linalg.norm(shift) + 0.1 * reach * np.linalg.norm(angular_part(move)))
+    turn = angular_part(move)
+    shift = linear_part(move) + np.cross(turn, centre)
+    return norm(shift) + 0.1 * reach * norm(turn)
 
 
 def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
     """The chain of b's joints, each between the motion of its axis there and back."""
     n = len(b.screws)
     if factor == 1:
-        return Exaggerated(b, (*range(n + 1), n), tuple(range(n)), np.zeros((n + 1, 6)), 1.0)
-    joints: list[tuple[Array, Array, float, str]] = []
+        bodies = (*range(n + 1), n)
+        return Exaggerated(b, bodies, tuple(range(n)), np.zeros((n + 1, 6)), 1.0)
+    joints: list[_ChainJoint] = []
+    own = np.eye(n + 1)
     bodies = [0]
     axes = []
     for i, move in enumerate(moves):
         screw, size = _unit(move)
         way = np.r_[np.zeros(n), size]
         if size:
-            joints.append((screw, way, -size, f"{FACTOR} {i + 1}"))
+            joints.append(_ChainJoint(screw, way, -size, f"{FACTOR} {i + 1}"))
         axes.append(len(joints))
         if i < n:
-            joints.append((b.screws[i], np.eye(n + 1)[i], 0.0, b.joint_names[i]))
+            joints.append(_ChainJoint(b.screws[i], own[i], 0.0, b.joint_names[i]))
             if size:
-                joints.append((screw, -way, size, f"{FACTOR} {i + 1} back"))
+                joints.append(_ChainJoint(screw, -way, size, f"{FACTOR} {i + 1} back"))
         bodies.append(len(joints))
     screws, rows, offset, names = zip(*joints, strict=True)
     chain = Chain(
@@ -161,11 +175,28 @@ def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
         base=b.base,
         tip=b.tip,
     )
-    return Exaggerated(chain, tuple(bodies), tuple(axes[:n]), moves, factor)
+    return Exaggerated(
+        chain,
+        bodies=tuple(bodies),
+        axes=tuple(axes[:n]),
+        moves=moves,
+        factor=factor,
+    )
+
+
+class _ChainJoint(NamedTuple):
+    """Screw of a joint, its row of the coupling and its offset, and its name."""
+
+    screw: Array
+    row: Array
+    offset: float
+    name: str
 
 
 def _unit(move: Array) -> tuple[Array, float]:
     """Unit screw and size of a motion, 0 where it is rounding."""
-    turn = angular_part(move) * (np.linalg.norm(angular_part(move)) > NOISE)
+    turn = angular_part(move)
+    if norm(turn) <= NOISE:
+        turn = np.zeros(3)
     screw, size = se3.axis_angle(np.r_[turn, linear_part(move)])
     return screw, float(size * (size > NOISE))
