@@ -15,7 +15,7 @@ import numpy as np
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.kinematics.compiled import CompiledChain
-from ..model.readings.coupled import own_limits, reading_limits
+from ..model.readings.coupled import UNLIMITED, own_limits, reading_limits
 from ..model.sampling import dominant_ratios
 from .chain_cache import ChainCache
 
@@ -41,7 +41,9 @@ class JointUnits(NamedTuple):
 
     def of(self, q: Array) -> Array:
         """Joint units u (..., m) of coordinates q."""
-        return q if self.scale is None else np.einsum("jk,...k->...j", self.scale, q)
+        if self.scale is None:
+            return q
+        return np.einsum("jk,...k->...j", self.scale, q)
 
     def of_steps(self, most: Array) -> Array:
         """Largest steps (m,) of u, within which no coordinate makes a larger one than these."""
@@ -50,7 +52,8 @@ class JointUnits(NamedTuple):
         back = np.linalg.inv(self.scale)
         parts = np.count_nonzero(back, axis=1, keepdims=True)
         with np.errstate(divide="ignore"):
-            return (most[:, None] / np.abs(parts * back)).min(axis=0)
+            each = most[:, None] / np.abs(parts * back)
+            return each.min(axis=0)
 
     def coordinates(self, u: Array, limits: Array) -> Array:
         """Coordinates q (..., m) of joint units u, within `limits` (m, 2) where u is but for
@@ -58,8 +61,8 @@ class JointUnits(NamedTuple):
         """
         if self.scale is None:
             return u
-        q = np.linalg.solve(self.scale, u[..., None])[..., 0]
-        return np.asarray(np.clip(q, *limits.T), float)
+        q = np.linalg.solve(self.scale, u[..., None])
+        return np.asarray(np.clip(q[..., 0], *limits.T), float)
 
 
 _UNITS: ChainCache[JointUnits] = ChainCache()
@@ -69,7 +72,10 @@ def joint_units(fast: CompiledChain, locked: bool = False) -> JointUnits:
     """Arm in the units of its joints; made once and kept. Where some are `locked`, S is diagonal."""
     if fast.chain.nontrivial_coupling is None:
         return JointUnits(fast, None)
-    return _UNITS.get(fast, locked) or _UNITS.keep(fast, _joint_units(fast, locked), locked)
+    known = _UNITS.get(fast, locked)
+    if known is not None:
+        return known
+    return _UNITS.keep(fast, _joint_units(fast, locked), locked)
 
 
 def _joint_units(fast: CompiledChain, locked: bool) -> JointUnits:
@@ -80,15 +86,20 @@ def _joint_units(fast: CompiledChain, locked: bool) -> JointUnits:
     scale = dominant_ratios(chain)
     if (scale == 1.0).all():
         return JointUnits(fast, None)
-    limits = np.sort(chain.limits * scale[:, None], axis=1)
+    ends = chain.limits * scale[:, None]
+    limits = np.sort(ends, axis=1)
     scaled = chain.replace(coupling=C / scale, limits=limits)
     return JointUnits(scaled.compile(), np.diag(scale))
 
 
 def in_joints(chain: Chain) -> JointUnits:
     """The arm as a function of its joints' own values, less their offsets, within their own limits."""
-    limits = own_limits(chain) - chain.offset[:, None]
-    own = chain.replace(coupling=None, q_names=chain.joint_names, limits=limits, joint_limits=None)
+    own = chain.replace(
+        coupling=None,
+        q_names=chain.joint_names,
+        limits=_limits_without_offsets(chain),
+        joint_limits=None,
+    )
     return JointUnits(own.compile(), chain.coupling)
 
 
@@ -96,7 +107,8 @@ def has_sums(chain: Chain) -> bool:
     """Whether joints are sums of coordinates, which they determine."""
     C = chain.coupling
     sums = np.count_nonzero(C, axis=1) > 1
-    return bool(sums.any() and np.linalg.matrix_rank(C) == max(C.shape))
+    independent = np.linalg.matrix_rank(C) == max(C.shape)
+    return bool(sums.any() and independent)
 
 
 def _sums_imply_limits(chain: Chain) -> bool:
@@ -105,22 +117,29 @@ def _sums_imply_limits(chain: Chain) -> bool:
     """
     if not has_sums(chain):
         return False
-    C = chain.coupling
-    lower, upper = reading_limits(C, own_limits(chain) - chain.offset[:, None]).T
+    own = _limits_without_offsets(chain)
+    lower, upper = reading_limits(chain.coupling, own).T
     low, high = chain.limits.T
-    return bool(np.all((lower >= low - SAME) & (upper <= high + SAME)))
+    implied = (lower >= low - SAME) & (upper <= high + SAME)
+    return bool(np.all(implied))
+
+
+def _limits_without_offsets(chain: Chain) -> Array:
+    """Limits (n, 2) of the joints' own values, less their offsets."""
+    return own_limits(chain) - chain.offset[:, None]
 
 
 def bounds(chain: Chain, limits: bool) -> Array:
     """Limits (m, 2) of the coordinates, infinite where `limits` do not count."""
     if limits:
         return chain.limits.copy()
-    return np.tile([-np.inf, np.inf], (chain.dof, 1))
+    return np.tile(UNLIMITED, (chain.dof, 1))
 
 
 def periods(chain: Chain) -> Array:
     """Periods (m,) of the coordinates, see `period`."""
-    return np.array([period(chain, k) for k in range(chain.dof)])
+    coordinates = range(chain.dof)
+    return np.array([period(chain, k) for k in coordinates])
 
 
 def period(chain: Chain, k: int) -> float:
@@ -128,9 +147,12 @@ def period(chain: Chain, k: int) -> float:
     for never.
     """
     ratios = chain.coupling[:, k]
-    if not chain.is_angle(k) or (ratios[chain.local.slides != 0] != 0).any():
+    sliding = ratios[chain.local.slides != 0]
+    if not chain.is_angle(k) or sliding.any():
         return 0.0
     for turns in range(1, MOST_TURNS + 1):
-        if (np.abs(turns * ratios - np.round(turns * ratios)) <= WHOLE).all():
+        of_joints = turns * ratios
+        off = np.abs(of_joints - np.round(of_joints))
+        if (off <= WHOLE).all():
             return 2 * np.pi * turns
     return 0.0

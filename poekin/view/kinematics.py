@@ -34,12 +34,14 @@ def page_tips(model: Model, names: Iterable[str] = ()) -> tuple[SceneTip, ...]:
     its own. Raises: UnknownName for a name that is no link.
     """
     if isinstance(model, Chain):
-        return (SceneTip(model.tip, len(model.kinds), tuple(range(model.dof)), model.reach),)
+        every = tuple(range(model.dof))
+        return (SceneTip(model.tip, len(model.kinds), every, model.reach),)
     tips = []
     for name in dict.fromkeys((*names, *default_tips(model))):
         chain = tip_chain(model, name)
         moving = tuple(map(model.q_names.index, chain.q_names))
-        tips.append(SceneTip(name, model.links.index(name), moving, chain.reach))
+        body = model.links.index(name)
+        tips.append(SceneTip(name, body, moving, chain.reach))
     return tuple(tips)
 
 
@@ -54,17 +56,20 @@ def default_tips(robot: Robot) -> tuple[str, ...]:
     """
     held = fix_free_joints(robot)
     above = {joint.child: joint.parent for joint in robot.joints}
+    depths = {link: len(_way(link, above)) for link in robot.links}
     last: dict[str, Chain] = {}
     for leaf in robot.leaves:
         chain = held.chain(tip=leaf)
         moved_by = chain.joint_names[-1] if chain.joint_names else ""
         other = last.setdefault(moved_by, chain)
-        if len(_way(leaf, above)) > len(_way(other.tip, above)):
+        if depths[leaf] > depths[other.tip]:
             last[moved_by] = chain
-    left = [chain for moved_by, chain in last.items() if moved_by or len(last) == 1]
+    if len(last) > 1:
+        last.pop("", None)
+    left = list(last.values())
     chosen: list[str] = []
     moving: set[str] = set()
-    carrier = held.chain(tip=_carrier([chain.tip for chain in left], above))
+    carrier = held.chain(tip=_carrier(last.values(), above))
     if len(left) > 1 and carrier.dof:
         chosen.append(carrier.tip)
         moving.update(carrier.q_names)
@@ -76,11 +81,11 @@ def default_tips(robot: Robot) -> tuple[str, ...]:
     return tuple(chosen)
 
 
-def _carrier(links: Iterable[str], above: dict[str, str]) -> str:
-    """The last link on the ways from the root to all of these."""
-    ways = [_way(link, above) for link in links]
+def _carrier(chains: Iterable[Chain], above: dict[str, str]) -> str:
+    """The last link on the ways from the root to the tips of all of these."""
+    ways = [_way(chain.tip, above) for chain in chains]
     shared = set(ways[0]).intersection(*ways)
-    return max(shared, key=lambda link: len(_way(link, above)))
+    return next(link for link in ways[0] if link in shared)
 
 
 def _way(link: str, above: dict[str, str]) -> list[str]:
@@ -102,7 +107,8 @@ def kinematics(model: Model, tips: Iterable[SceneTip]) -> str:
     """
     tips = tuple(tips)
     if isinstance(model, Chain):
-        links = EmittedFunction("link_poses", len(model.kinds) + 1, False, _body_program(model))
+        bodies = len(model.kinds) + 1
+        links = EmittedFunction("link_poses", bodies, False, _body_program(model))
     else:
         links = links_task(model)
     chains = (tip_chain(model, tip.name).compile() for tip in tips)
@@ -116,10 +122,10 @@ def kinematics(model: Model, tips: Iterable[SceneTip]) -> str:
 
 def _tips(tips: Iterable[SceneTip]) -> str:
     """The tips, each with a function that picks its coordinates."""
-    lines = [
-        f"    {{ fk_jacobian: (q) => tip{k}([{', '.join(f'q[{i}]' for i in tip.coordinates)}]) }},"
-        for k, tip in enumerate(tips)
-    ]
+    lines = []
+    for k, tip in enumerate(tips):
+        picked = ", ".join(f"q[{i}]" for i in tip.coordinates)
+        lines.append(f"    {{ fk_jacobian: (q) => tip{k}([{picked}]) }},")
     return "\n".join(["export const tips = [", *lines, "];", ""])
 
 
@@ -136,9 +142,10 @@ def fix_free_joints(robot: Robot) -> Robot:
     """
     if not any(joint.kind in FREE for joint in robot.joints):
         return robot
-    joints = [
-        replace(joint, kind="fixed") if joint.kind in FREE else joint for joint in robot.joints
-    ]
+    joints = list(robot.joints)
+    for k, joint in enumerate(joints):
+        if joint.kind in FREE:
+            joints[k] = replace(joint, kind="fixed")
     return Robot(robot.name, robot.links, joints, robot.source, robot.coupling)
 
 
@@ -150,7 +157,9 @@ def _body_program(chain: Chain) -> Program:
     S = np.zeros((n, 6, 1))
     S[:, 2, 0] = chain.local.rotates
     S[:, 5, 0] = chain.local.slides
-    A = se3.adjoint(chain.joint_poses(np.zeros(chain.dof))) @ S
+    bodies = chain.joint_poses(np.zeros(chain.dof))
+    A = se3.adjoint(bodies) @ S
     C = chain.coupling.tolist()
-    tree = TracedTree(range(n), [IDENTITY] * n, A[..., 0].tolist(), C, [0.0] * n)
+    screws = A[..., 0].tolist()
+    tree = TracedTree(range(n), [IDENTITY] * n, screws, C, [0.0] * n)
     return tree_program(tree, range(n + 1))

@@ -114,7 +114,8 @@ def _write_angles(module: ir.Module, program: Program) -> None:
     for angle in program.angles:
         parts = [] if angle.base is None else [values[angle.base]]
         for k, factor in angle.terms:
-            x = build.load(build.gep(q, [_INT(k)]), align=8)
+            place = build.gep(q, [_INT(k)])
+            x = build.load(place, align=8)
             if factor == -1:
                 x = build.fneg(x)
             elif factor != 1:
@@ -127,7 +128,8 @@ def _write_angles(module: ir.Module, program: Program) -> None:
             total = build.fadd(total, part)
         values.append(total)
     for j, value in enumerate(values):
-        build.store(value, build.gep(sines, [build.mul(stride, _INT(j))]), align=8)
+        place = build.gep(sines, [build.mul(stride, _INT(j))])
+        build.store(value, place, align=8)
     build.ret_void()
 
 
@@ -155,13 +157,16 @@ class _Function:
                 values[number] = self._constant(node.first)
             elif node.kind == "scaled":
                 factor = self._constant(node.first)
-                values[number] = build.fmul(factor, values[node.second], flags=self.flags)
+                second = values[node.second]
+                values[number] = build.fmul(factor, second, flags=self.flags)
             elif node.kind == "reciprocal":
-                values[number] = build.fdiv(self._constant(1.0), values[node.second])
+                one = self._constant(1.0)
+                values[number] = build.fdiv(one, values[node.second])
             else:
                 operation = self._operation(node)
                 first = values[int(node.first)]
-                values[number] = operation(first, values[node.second], flags=self.flags)
+                second = values[node.second]
+                values[number] = operation(first, second, flags=self.flags)
         outputs = [self._output(values, number, sign) for number, sign in program.outputs]
         *_, T, J = self.function.args
         numbers = outputs[:12] if pose else []
@@ -172,9 +177,11 @@ class _Function:
         else:
             if pose:
                 R = numbers[:9]
-                p = numbers[9:]
+                rows = []
+                for k, p in enumerate(numbers[9:]):
+                    rows += [*R[3 * k : 3 * k + 3], p]
                 last_row = map(self._constant, (0.0, 0.0, 0.0, 1.0))
-                self._store(T, [*R[:3], p[0], *R[3:6], p[1], *R[6:], p[2], *last_row])
+                self._store(T, [*rows, *last_row])
             self._store(J, entries)
         build.ret_void()
 
@@ -207,10 +214,9 @@ class _Function:
             following = self.function.append_basic_block()
             # a branch that is always taken, which LLVM cannot know: it would make one block of two
             # otherwise
-            with self.build.if_then(
-                self.build.icmp_signed("<=", self.function.args[2], _INT(0)),
-                likely=False,
-            ):
+            _, _, stride, *_ = self.function.args
+            never = self.build.icmp_signed("<=", stride, _INT(0))
+            with self.build.if_then(never, likely=False):
                 self.build.ret_void()
             self.build.branch(following)
             self.build.position_at_end(following)
@@ -224,18 +230,21 @@ class _Function:
         build = self.build
         sines, cosines, stride, q, width, *_ = self.function.args
         if number >= 0:
-            place = build.gep(
-                (sines, cosines)[number % 2],
-                [build.mul(stride, _INT(number // 2))],
-            )
-            return build.load(self._cast_pointer(place, self.type), align=8)
-        value = build.load(build.gep(q, [_INT(-1 - number)]), align=8)
+            row = build.mul(stride, _INT(number // 2))
+            place = build.gep((sines, cosines)[number % 2], [row])
+            vector = self._cast_pointer(place, self.type)
+            return build.load(vector, align=8)
+        k = _INT(-1 - number)
+        value = build.load(build.gep(q, [k]), align=8)
         if self.lanes == 1:
             return value
-        row = build.insert_element(ir.Constant(self.type, ir.Undefined), value, _INDEX(0))
+        undefined = ir.Constant(self.type, ir.Undefined)
+        row = build.insert_element(undefined, value, _INDEX(0))
         for lane in range(1, self.lanes):
-            place = build.gep(q, [build.add(build.mul(width, _INT(lane)), _INT(-1 - number))])
-            row = build.insert_element(row, build.load(place, align=8), _INDEX(lane))
+            start = build.mul(width, _INT(lane))
+            place = build.gep(q, [build.add(start, k)])
+            value = build.load(place, align=8)
+            row = build.insert_element(row, value, _INDEX(lane))
         return row
 
     def _store_columns(self, start, values) -> None:
@@ -243,7 +252,8 @@ class _Function:
         for i, value in enumerate(values):
             self._extend_block()
             place = self.build.gep(start, [_INT(LANES * i)])
-            self.build.store(value, self._cast_pointer(place, self.type), align=8)
+            vector = self._cast_pointer(place, self.type)
+            self.build.store(value, vector, align=8)
 
     def _store(self, start, values) -> None:
         """The values one after the other; of several lanes each lane's, four by four turned from
@@ -256,14 +266,12 @@ class _Function:
             self._extend_block(len(group))
             if self.lanes == 1:
                 for k, value in enumerate(group):
-                    build.store(value, build.gep(start, [_INT(i + k)]), align=8)
+                    place = build.gep(start, [_INT(i + k)])
+                    build.store(value, place, align=8)
             else:
                 for lane, row in enumerate(self._transposed(group)):
-                    build.store(
-                        row,
-                        self._cast_pointer(build.gep(start, [_INT(lane * size + i)]), row.type),
-                        align=8,
-                    )
+                    place = build.gep(start, [_INT(lane * size + i)])
+                    build.store(row, self._cast_pointer(place, row.type), align=8)
 
     def _transposed(self, group):
         """Four vectors, or two, transposed: for each lane the vector of what they have there.
@@ -273,18 +281,20 @@ class _Function:
         if len(group) == LANES:
             even, odd = self._even_odd(*group[:2])
             even2, odd2 = self._even_odd(*group[2:])
-            return [
-                self._shuffled(a, b, mask)
-                for mask in ([0, 1, 4, 5], [2, 3, 6, 7])
-                for a, b in ((even, even2), (odd, odd2))
-            ]
-        return [self._shuffled(*group, [lane, LANES + lane]) for lane in range(LANES)]
+            pairs = ((even, even2), (odd, odd2))
+            halves = ([0, 1, 4, 5], [2, 3, 6, 7])
+            return [self._shuffled(*pair, half) for half in halves for pair in pairs]
+        lanes = range(LANES)
+        return [self._shuffled(*group, [lane, LANES + lane]) for lane in lanes]
 
     def _even_odd(self, a, b):
-        return self._shuffled(a, b, [0, 4, 2, 6]), self._shuffled(a, b, [1, 5, 3, 7])
+        even = self._shuffled(a, b, [0, 4, 2, 6])
+        odd = self._shuffled(a, b, [1, 5, 3, 7])
+        return even, odd
 
     def _shuffled(self, a, b, mask):
-        return self.build.shuffle_vector(a, b, ir.Constant(ir.VectorType(_INDEX, len(mask)), mask))
+        kind = ir.VectorType(_INDEX, len(mask))
+        return self.build.shuffle_vector(a, b, ir.Constant(kind, mask))
 
     def _cast_pointer(self, place, kind):
         """A place in an array of numbers, as one of `kind`."""

@@ -32,10 +32,23 @@ class Angle:
     terms: Terms
     offset: float
 
-    def cost(self) -> tuple[int, int]:
-        """Multiplications and additions that it takes."""
-        parts = len(self.terms) + (self.base is not None) + (self.offset != 0)
-        return sum(abs(factor) != 1 for _, factor in self.terms), max(parts - 1, 0)
+    @property
+    def multiplications(self) -> int:
+        """Multiplications that it takes."""
+        return sum(abs(factor) != 1 for _, factor in self.terms)
+
+    @property
+    def additions(self) -> int:
+        """Additions that it takes."""
+        parts = len(self.terms)
+        parts += self.base is not None
+        parts += self.offset != 0
+        return max(parts - 1, 0)
+
+    @property
+    def operations(self) -> int:
+        """Multiplications and additions."""
+        return self.multiplications + self.additions
 
 
 class Angles:
@@ -55,7 +68,8 @@ class Angles:
             quarters = quarters + whole
         terms = tuple((k, float(f)) for k, f in enumerate(factors) if f)
         if not terms:
-            sine, cosine = (math.sin(offset), math.cos(offset)) if offset else (0.0, 1.0)
+            sine = math.sin(offset) if offset else 0.0
+            cosine = math.cos(offset) if offset else 1.0
             sign = 1
         else:
             sign = 1 if terms[0][1] > 0 else -1
@@ -63,7 +77,8 @@ class Angles:
                 terms = tuple((k, -f) for k, f in terms)
                 offset = -offset
                 quarters = -quarters
-            number = self.numbers.setdefault((terms, offset), len(self.numbers))
+            form = (terms, offset)
+            number = self.numbers.setdefault(form, len(self.numbers))
             sine = self.graph.input(2 * number)
             cosine = self.graph.input(2 * number + 1)
         for _ in range(quarters % 4):
@@ -96,26 +111,35 @@ def program(graph: Graph, angles: Angles, outputs: Sequence[Traced | float]) -> 
         if number not in needed:
             needed.add(number)
             stack += _operands(nodes[number])
-    used = sorted(
-        {
-            int(nodes[k].first) // 2
-            for k in needed
-            if nodes[k].kind == "input" and nodes[k].first >= 0
-        }
-    )
+    angle_of = {k: _angle_number(nodes[k]) for k in needed}
+    used = sorted({j for j in angle_of.values() if j is not None})
     forms = list(angles.numbers)
     chosen, order = _sums([forms[j] for j in used])
     place = {used[j]: position for position, j in enumerate(order)}
     steps = []
     for number in sorted(needed):
         node = nodes[number]
-        if node.kind == "input" and node.first >= 0:
-            node = Node("input", 2 * place[int(node.first) // 2] + int(node.first) % 2)
+        j = angle_of[number]
+        if j is not None:
+            part = int(node.first) % 2
+            node = Node("input", 2 * place[j] + part)
         steps.append((number, node))
-    ends = tuple(
-        (x.number, float(x.sign)) if isinstance(x, Traced) else (None, folded(x)) for x in outputs
-    )
+    ends = tuple(map(_end, outputs))
     return Program(tuple(chosen), tuple(steps), ends, _count(chosen, steps))
+
+
+def _angle_number(node: Node) -> int | None:
+    """Number of the angle whose sine or cosine a node is."""
+    if node.kind == "input" and node.first >= 0:
+        return int(node.first) // 2
+    return None
+
+
+def _end(x: Traced | float) -> tuple[int | None, float]:
+    """Number and sign of an output's node; None and the value of a constant."""
+    if isinstance(x, Traced):
+        return x.number, float(x.sign)
+    return None, folded(x)
 
 
 def _operands(node: Node) -> list[int]:
@@ -128,21 +152,24 @@ def _operands(node: Node) -> list[int]:
 
 def _sums(forms) -> tuple[list[Angle], list[int]]:
     """The angles, each from an earlier one where that saves additions; and which form each one is."""
-    order = sorted(range(len(forms)), key=lambda j: (len(forms[j][0]), j))
+    lengths = [len(terms) for terms, _ in forms]
+    order = sorted(range(len(forms)), key=lambda j: (lengths[j], j))
     chosen: list[Angle] = []
     # the angles so far that have a coordinate: no other one saves an addition
     having: dict[int, list[int]] = {}
     for position, j in enumerate(order):
         terms, offset = forms[j]
         best = Angle(None, terms, offset)
-        for base in sorted({base for k, _ in terms for base in having.get(k, ())}):
+        bases = {base for k, _ in terms for base in having.get(k, ())}
+        for base in sorted(bases):
             known, known_offset = forms[order[base]]
             rest = dict(terms)
             for k, factor in known:
                 rest[k] = rest.get(k, 0.0) - factor
-            left = tuple((k, factor) for k, factor in sorted(rest.items()) if factor)
+            rest = {k: factor for k, factor in rest.items() if factor}
+            left = tuple(sorted(rest.items()))
             candidate = Angle(base, left, offset - known_offset)
-            if sum(candidate.cost()) < sum(best.cost()):
+            if candidate.operations < best.operations:
                 best = candidate
         chosen.append(best)
         for k, _ in terms:
@@ -152,10 +179,10 @@ def _sums(forms) -> tuple[list[Angle], list[int]]:
 
 def _count(angles: Sequence[Angle], steps: Sequence[tuple[int, Node]]) -> Count:
     kinds = [node.kind for _, node in steps]
-    costs = [angle.cost() for angle in angles]
+    products = kinds.count("scaled") + kinds.count("product")
     return Count(
-        multiplications=kinds.count("scaled") + kinds.count("product") + sum(m for m, _ in costs),
-        additions=kinds.count("sum") + sum(a for _, a in costs),
+        multiplications=products + sum(angle.multiplications for angle in angles),
+        additions=kinds.count("sum") + sum(angle.additions for angle in angles),
         divisions=kinds.count("reciprocal"),
         sines=len(angles),
         cosines=len(angles),

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...algebra import (
     IDENTITY,
@@ -28,7 +28,19 @@ from .trace import Graph
 
 _ROWS = 6
 Pose = tuple[float, ...]
-Walk = tuple[Any, Any, Any, list[Any], list[Any]]
+Matrix = list[list[Any]]
+
+
+class Walk(NamedTuple):
+    """Arguments of a walk of `structured`: links, offsets along their axes, whether an axis is parallel
+    to the one before, and sines and cosines of its sums of angles.
+    """
+
+    links: Any
+    d_offsets: Any
+    parallel: Any
+    sines: list[Any]
+    cosines: list[Any]
 
 
 @dataclass(frozen=True)
@@ -65,35 +77,40 @@ def cheapest_program(arm: Structure, frame: str | int | None, pose: bool) -> Pro
     index), or of its pose alone where frame is None; of both where `pose`. Outputs: the twelve
     numbers of the pose, then six rows of J.
     """
-    return min(
-        (_traced(arm, frame, pose, *ways) for ways in product((False, True), repeat=2)),
-        key=_cost,
-    )
+    ways = product((False, True), repeat=2)
+    programs = (_traced(arm, frame, pose, *way) for way in ways)
+    return min(programs, key=_cost)
 
 
 def cheapest_frame(arm: Structure) -> tuple[int, float]:
     """The joint k in whose frame the Jacobian costs least, and how far the structure's frame k
     stands from that frame's origin, along z: 0 or the joint's d (m).
     """
-    places = [(k, h) for k, along in enumerate(arm.d_offsets) for h in dict.fromkeys((0.0, along))]
-    return min(
-        places,
-        key=lambda place: _cost(cheapest_program(with_frame_at(arm, *place), place[0], pose=False)),
-    )
+    places = []
+    for k, along in enumerate(arm.d_offsets):
+        places += [(k, h) for h in dict.fromkeys((0.0, along))]
+    return min(places, key=lambda place: _cost_in_frame(arm, *place))
+
+
+def _cost_in_frame(arm: Structure, k: int, h: float) -> int:
+    moved = with_frame_at(arm, k, h)
+    return _cost(cheapest_program(moved, k, pose=False))
 
 
 def with_frame_at(arm: Structure, k: int, h: float) -> Structure:
     """The arm for a user whose frame of joint k has the structure's frame at (0, 0, h) and is
     turned as it.
     """
-    frames = tuple((*IDENTITY[:11], h) if i == k else T for i, T in enumerate(arm.frames))
-    return replace(arm, frames=frames)
+    frames = list(arm.frames)
+    frames[k] = (*IDENTITY[:11], h)
+    return replace(arm, frames=tuple(frames))
 
 
 def _cost(way: Program) -> int:
     # a pair of sine and cosine, or a division, takes about as long as ten products
     count = way.count
-    return count.multiplications + count.additions + 10 * (count.sines + count.divisions)
+    products = count.multiplications + count.additions
+    return products + 10 * (count.sines + count.divisions)
 
 
 def _traced(
@@ -108,14 +125,10 @@ def _traced(
     """
     trace = _Trace(arm)
     T, J = _pose_and_jacobian(trace, frame, pose, inner, outer)
-    return program(
-        trace.graph,
-        trace.angles,
-        [
-            *(T if pose or frame is None else ()),
-            *(x for row in J for x in row),
-        ],
-    )
+    outputs = [x for row in J for x in row]
+    if pose or frame is None:
+        outputs = [*T, *outputs]
+    return program(trace.graph, trace.angles, outputs)
 
 
 def manipulability_program(arm: Structure, frame: str | int) -> Program:
@@ -123,10 +136,9 @@ def manipulability_program(arm: Structure, frame: str | int) -> Program:
     coordinates, of the Jacobian in a frame. Outputs: the twelve numbers of the pose, the
     determinant.
     """
-    return min(
-        (_measured(arm, frame, *ways) for ways in product((False, True), repeat=2)),
-        key=_cost,
-    )
+    ways = product((False, True), repeat=2)
+    programs = (_measured(arm, frame, *way) for way in ways)
+    return min(programs, key=_cost)
 
 
 def _measured(arm: Structure, frame: str | int, inner: bool, outer: bool) -> Program:
@@ -135,9 +147,10 @@ def _measured(arm: Structure, frame: str | int, inner: bool, outer: bool) -> Pro
     m = arm.coordinates
     if m < _ROWS:
         J = [list(column) for column in zip(*J, strict=True)]
-    sides = min(m, _ROWS), max(m, _ROWS)
-    G: list[list[Any]] = [[0.0] * sides[0] for _ in range(sides[0])]
-    return program(trace.graph, trace.angles, [*T, gram.determinant(J, *sides, G)])
+    less = min(m, _ROWS)
+    more = max(m, _ROWS)
+    determinant = gram.determinant(J, less, more, _zeros(less, less))
+    return program(trace.graph, trace.angles, [*T, determinant])
 
 
 def _pose_and_jacobian(
@@ -160,6 +173,10 @@ def _pose_and_jacobian(
     return trace.hybrid(outer)[0] if pose else (), J
 
 
+def _zeros(rows: int, columns: int) -> Matrix:
+    return [[0.0] * columns for _ in range(rows)]
+
+
 class _Trace:
     """One recording: an arm's walks on the scalars of one graph."""
 
@@ -168,25 +185,28 @@ class _Trace:
         self.n = len(arm.links)
         self.graph = Graph()
         self.angles = Angles(self.graph)
-        self.driven_by = [
-            [(k, factor) for k, factor in enumerate(row) if factor] for row in arm.coupling
-        ]
+        # the coordinates (k, factor) of each joint
+        self.driven_by: list[list[tuple[int, float]]] = []
+        for row in arm.coupling:
+            self.driven_by.append([(k, factor) for k, factor in enumerate(row) if factor])
         self.d_offsets = [d + self._slide(i) for i, d in enumerate(arm.d_offsets)]
-        self.rows: list[list[Any]] = [[0.0] * 12 for _ in range(self.n)]
-        self.points: list[list[Any]] = [[0.0] * 2 for _ in range(self.n)]
+        self.rows = _zeros(self.n, 12)
+        self.points = _zeros(self.n, 2)
 
     def hybrid(self, seen: bool):
         """The pose, and the Jacobian in the axes of the base and at the tip."""
         walk, T = self._outward_from_base()
         if seen:
             tool = translation(self.arm.tool)
-            T = self._with_tip(T, structured.tip_seen(tool, *walk, self.n, self.points))
+            seen_tip = structured.tip_seen(tool, *walk, self.n, self.points)
+            T = self._with_tip(T, seen_tip)
         return T, self._jacobian([(0, self.n, seen)], translation(T))
 
     def space(self, seen: bool):
         """The pose, and the Jacobian in the base frame."""
         walk, T = self._outward_from_base()
-        structured.seen_outward(translation(inverse(self.arm.base)), *walk, 0, self.points)
+        point = translation(inverse(self.arm.base))
+        structured.seen_outward(point, *walk, 0, self.points)
         return T, self._jacobian([(0, self.n, seen)])
 
     def body(self, seen: bool):
@@ -194,8 +214,10 @@ class _Trace:
         arm = self.arm
         last = self.n - 1
         walk = self._inward_walk(last)
-        T = inverse(compose(self._inward(inverse(arm.tool), last, walk), inverse(arm.base)))
-        p = structured.seen_inward(translation(arm.tool), *walk, last, self.points)
+        to_base = self._inward(inverse(arm.tool), last, walk)
+        T = inverse(compose(to_base, inverse(arm.base)))
+        tool = translation(arm.tool)
+        p = structured.seen_inward(tool, *walk, last, self.points)
         if seen:
             T = self._with_tip(T, p)
         return T, self._jacobian([(0, self.n, seen)])
@@ -210,12 +232,15 @@ class _Trace:
         walk = self._outward_walk(k + 1)
         self._outward(T_k, k + 1, walk)
         structured.seen_outward(point, *walk, k + 1, self.points)
-        return self._jacobian([(0, k + 1, inner), (k + 1, self.n, outer)])
+        inward = (0, k + 1, inner)
+        outward = (k + 1, self.n, outer)
+        return self._jacobian([inward, outward])
 
     def _outward_from_base(self):
         """The outward walk from the base, and the pose of the tip that it leads to."""
         walk = self._outward_walk(0)
-        return walk, compose(self._outward(self.arm.base, 0, walk), self.arm.tool)
+        last = self._outward(self.arm.base, 0, walk)
+        return walk, compose(last, self.arm.tool)
 
     def _with_tip(self, T, p):
         """The pose T with its origin at p, given in the frame before joint 0."""
@@ -223,17 +248,19 @@ class _Trace:
 
     def _outward(self, T, begin: int, walk: Walk):
         """The pose of the frame after the last joint where T is the one before joint `begin`."""
-        return from_axes(*structured.outward(axes(T), *walk, begin, self.rows))
+        frame = structured.outward(axes(T), *walk, begin, self.rows)
+        return from_axes(*frame)
 
     def _inward(self, T, begin: int, walk: Walk):
         """The pose of the frame before joint 0 where T is the one after joint `begin`."""
-        return from_axes(*structured.inward(axes(T), *walk, begin, self.rows))
+        frame = structured.inward(axes(T), *walk, begin, self.rows)
+        return from_axes(*frame)
 
     def _jacobian(self, parts, p=(0, 0, 0)):
         """J from what the walks have written: velocity of the point p; parts are (begin, end,
         seen).
         """
-        J: list[list[Any]] = [[0.0] * self.n for _ in range(6)]
+        J = _zeros(6, self.n)
         rotates = self.arm.rotates
         slides = self.arm.slides
         for i in range(self.n):
@@ -241,9 +268,11 @@ class _Trace:
         columns.about_point(J, rotates, slides, self.n, p)
         for begin, end, seen in parts:
             if seen:
-                structured.columns_of_axes(self.rows, self.points, rotates, slides, begin, end, J)
-        J_q: list[list[Any]] = [[0.0] * self.arm.coordinates for _ in range(6)]
-        columns.coupled(J, self.arm.coupling, self.n, self.arm.coordinates, J_q)
+                seen_by = (self.rows, self.points, rotates, slides)
+                structured.columns_of_axes(*seen_by, begin, end, J)
+        m = self.arm.coordinates
+        J_q = _zeros(6, m)
+        columns.coupled(J, self.arm.coupling, self.n, m, J_q)
         return J_q
 
     def _slide(self, i: int):
@@ -252,7 +281,8 @@ class _Trace:
         if not slide:
             return 0.0
         terms = [(k, slide * factor) for k, factor in self.driven_by[i]]
-        return self.graph.linear(terms, slide * self.arm.shift[i])
+        offset = slide * self.arm.shift[i]
+        return self.graph.linear(terms, offset)
 
     def _outward_walk(self, begin: int) -> Walk:
         """Walk from joint `begin` to the last: a run of axes adds its angles up from its beginning."""
@@ -274,12 +304,13 @@ class _Trace:
 
     def _walk(self, joints: dict[int, range]) -> Walk:
         """Arguments of a walk, its sines and cosines of the sums of the angles of `joints`."""
-        pairs: list[tuple[Any, Any]] = [(0.0, 1.0)] * self.n
+        sines: list[Any] = [0.0] * self.n
+        cosines: list[Any] = [1.0] * self.n
         for i, summed in joints.items():
-            pairs[i] = self._sine_cosine(summed)
-        sines = [sine for sine, _ in pairs]
-        cosines = [cosine for _, cosine in pairs]
-        return self.arm.links, self.d_offsets, self.arm.parallel, sines, cosines
+            sine, cosine = self._sine_cosine(summed)
+            sines[i] = sine
+            cosines[i] = cosine
+        return Walk(self.arm.links, self.d_offsets, self.arm.parallel, sines, cosines)
 
     def _sine_cosine(self, joints: range):
         """Sine and cosine of the sum of the joints' angles."""

@@ -60,7 +60,8 @@ class CTable:
     code = "table"
 
 
-CType = CScalar | CTuple | CRow | CTable
+Pointer = CRow | CTable
+CType = CScalar | CTuple | Pointer
 
 
 def unify(a: CType, b: CType) -> CType | None:

@@ -24,6 +24,7 @@ from .values import (
     is_number,
     scalar,
 )
+from .writer import rows_of
 
 _MATHEMATICAL: dict[Any, str] = {
     elementary.sqrt: "sqrt",
@@ -112,7 +113,8 @@ class CallWriter(ExpressionWriter):
         self, node: ast.Call, function: Callable, values: list[CValue]
     ) -> tuple[CType | None, str | CValue]:
         """The call of a function that is written for these types."""
-        instance = self.units.instance(function, [_argument(value) for value in values])
+        arguments = list(map(_argument, values))
+        instance = self.units.instance(function, arguments)
         if instance is None:
             self.refuse(node, f"a call of {function.__name__} by itself")
         if isinstance(instance.told, CValue) and not instance.written:
@@ -129,29 +131,33 @@ class CallWriter(ExpressionWriter):
         text = f"{instance.name}({', '.join(texts)})"
         if instance.returns is None or not isinstance(instance.told, tuple):
             return instance.returns, text
-        return None, self.in_parts(self.held(CValue(instance.returns, text)), instance.told)
+        result = self.held(CValue(instance.returns, text))
+        return None, self.in_parts(result, instance.told)
 
     def global_constant(self, name: str, value: Any, kind: CType) -> CValue:
         """A tuple of numbers of a module by its name in C."""
-        made = self.make_tuple([self.constant(self.source.tree, item, "") for item in value])
+        tree = self.source.tree
+        made = self.make_tuple([self.constant(tree, item, "") for item in value])
         return self.units.tuple_constant(self.source.function, name, made)
 
     def maximum(self, node: ast.Call, values: list[CValue], name: str) -> CValue:
         """max or min as Python has them: a NaN that stands first stays, another is passed over."""
-        if len(values) < 2 or not all(is_number(value.type) for value in values):
+        numbers = all(is_number(value.type) for value in values)
+        if len(values) < 2 or not numbers:
             self.refuse(node, f"{name} of anything but two numbers or more")
         result = values[0]
         for value in values[1:]:
             if result.type == INT and value.type == INT:
                 a = self.held(result)
                 b = self.held(value)
-                test = binary(">" if name == "max" else "<", b, a, BOOL, LESS)
+                sign = ">" if name == "max" else "<"
+                test = binary(sign, b, a, BOOL, LESS)
                 result = CValue(INT, f"({test.text} ? {b.text} : {a.text})", UNARY)
             else:
                 helper = self.units.helper(name)
-                result = CValue(
-                    DOUBLE, f"{helper}({as_double(result).text}, {as_double(value).text})"
-                )
+                a = as_double(result)
+                b = as_double(value)
+                result = CValue(DOUBLE, f"{helper}({a.text}, {b.text})")
         return result
 
 
@@ -160,9 +166,11 @@ def _argument(value: CValue) -> Argument:
     function, and so are known integers.
     """
     kind = value.type
-    told = value.fixed and (isinstance(kind, (CTable, CTuple)) or _is_flag(kind))
-    told = told or (value.known and kind == INT)
-    return Argument(kind, value if told else None)
+    compound = isinstance(kind, (CTable, CTuple))
+    told = value.fixed and (compound or _is_flag(kind))
+    if told or (value.known and kind == INT):
+        return Argument(kind, value)
+    return Argument(kind)
 
 
 def _is_flag(kind: CType) -> bool:
@@ -178,7 +186,7 @@ def _length(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
         return scalar(len(kind.items), INT)
     if isinstance(kind, CScalar):
         writer.refuse(node, "len of a number")
-    return scalar(kind.rows if isinstance(kind, CTable) else kind.length, INT)
+    return scalar(rows_of(kind), INT)
 
 
 def _integer(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
@@ -195,14 +203,16 @@ def _float(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
 
 
 def _below(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
-    return binary("<", as_double(values[0]), as_double(values[1]), BOOL, LESS)
+    a, b = map(as_double, values)
+    return binary("<", a, b, BOOL, LESS)
 
 
 def _true(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
     return scalar(True, BOOL)
 
 
-_OF_PYTHON: dict[Any, Callable[[CallWriter, ast.Call, list[CValue]], CValue]] = {
+_OfPython = Callable[[CallWriter, ast.Call, list[CValue]], CValue]
+_OF_PYTHON: dict[Any, _OfPython] = {
     max: lambda writer, node, values: writer.maximum(node, values, "max"),
     min: lambda writer, node, values: writer.maximum(node, values, "min"),
     len: _length,

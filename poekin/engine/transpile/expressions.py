@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import operator
+from itertools import pairwise
 
 from ..straight_line.trace import folded
 from .c_types import BOOL, DOUBLE, INT, CRow, CScalar, CTable, CTuple, unify
@@ -55,7 +56,8 @@ class ExpressionWriter(Writer):
             self.refuse(node, "a condition that is no number")
         if value.known:
             return scalar(bool(value.constant), BOOL, value.fixed)
-        return binary("!=", value, scalar(0, value.type), BOOL, EQUAL)
+        zero = scalar(0, value.type)
+        return binary("!=", value, zero, BOOL, EQUAL)
 
     def _constant(self, node: ast.Constant) -> CValue:
         if not isinstance(node.value, (bool, int, float)):
@@ -68,20 +70,26 @@ class ExpressionWriter(Writer):
             return self.known[name]
         if name in self.types:
             self.read.add(name)
-            value = CValue(self.types[name], self.c_name(name), root=self.roots.get(name, ""))
-            return self.in_parts(value, self.told[name]) if name in self.told else value
-        if self.source.stores.get(name, 0) or name in self.source.parameters:
+            root = self.roots.get(name, "")
+            value = CValue(self.types[name], self.c_name(name), root=root)
+            if name in self.told:
+                return self.in_parts(value, self.told[name])
+            return value
+        if name in self.source.stores:
             self.refuse(node, f"the use of {name} before it has a value")
         return self.constant(node, self.python_value(node), name)
 
     def _attribute(self, node: ast.Attribute) -> CValue:
         if node.attr == "shape":
-            of = self.expression(node.value).type
-            if isinstance(of, CRow):
-                return self.make_tuple([scalar(of.length, INT)])
-            if isinstance(of, CTable):
-                return self.make_tuple([scalar(of.rows, INT), scalar(of.columns, INT)])
+            match self.expression(node.value).type:
+                case CRow(length):
+                    return self._integers(length)
+                case CTable(rows, columns):
+                    return self._integers(rows, columns)
         return self.constant(node, self.python_value(node), node.attr)
+
+    def _integers(self, *values: int) -> CValue:
+        return self.make_tuple([scalar(value, INT) for value in values])
 
     def _tuple(self, node: ast.Tuple) -> CValue:
         items = self.listed(node.elts)
@@ -106,7 +114,8 @@ class ExpressionWriter(Writer):
                 return scalar(not value.constant, BOOL, value.fixed)
             return CValue(BOOL, f"!{value.within(UNARY + 1)}", UNARY)
         value = self.expression(node.operand)
-        if isinstance(node.op, ast.Invert) or not is_number(value.type):
+        inverted = isinstance(node.op, ast.Invert)
+        if inverted or not is_number(value.type):
             self.refuse(node, f"the operator {type(node.op).__name__} here")
         if isinstance(node.op, ast.UAdd):
             return value
@@ -125,27 +134,30 @@ class ExpressionWriter(Writer):
 
     def arithmetic(self, node: ast.AST, op: ast.operator, a: CValue, b: CValue) -> CValue:
         """a op b of numbers, or the sum of two tuples."""
-        if isinstance(op, ast.Add) and isinstance(a.type, CTuple) and isinstance(b.type, CTuple):
+        if isinstance(op, ast.Add) and _both(CTuple, a, b):
             return self.make_tuple(self.items(a) + self.items(b))
         entry = _ARITHMETIC.get(type(op))
-        numbers = isinstance(a.type, CScalar) and isinstance(b.type, CScalar)
-        if entry is None or not numbers:
+        if entry is None or not _both(CScalar, a, b):
             self.refuse(node, f"the operator {type(op).__name__} here")
         sign, binds, function = entry
-        if a.known and b.known and (b.constant != 0 or binds == SUM):
+        fixed = a.fixed or b.fixed
+        defined = b.constant != 0 or binds == SUM
+        if a.known and b.known and defined:
             value = function(a.constant, b.constant)
-            return self.constant(node, value, "", a.fixed or b.fixed)
-        if DOUBLE in (a.type, b.type) and (a.fixed or b.fixed):
+            return self.constant(node, value, "", fixed)
+        doubles = DOUBLE in (a.type, b.type)
+        if doubles and fixed:
             found = self._folded(op, a, b)
             if found is not None:
                 return found
-        whole = a.type != DOUBLE and b.type != DOUBLE and not isinstance(op, ast.Div)
+        whole = not doubles and not isinstance(op, ast.Div)
         if isinstance(op, ast.Mod):
             if not whole or not b.known or b.constant <= 0:
                 self.refuse(node, "% but of an integer by a known integer above 0")
             # Python's rest is never negative
-            a = binary("+", binary("%", a, b, INT, PRODUCT), b, INT, SUM)
-            return binary("%", a, b, INT, PRODUCT)
+            rest = binary("%", a, b, INT, PRODUCT)
+            above = binary("+", rest, b, INT, SUM)
+            return binary("%", above, b, INT, PRODUCT)
         if whole:
             return binary(sign, a, b, INT, binds)
         return binary(sign, as_double(a), as_double(b), DOUBLE, binds)
@@ -154,15 +166,17 @@ class ExpressionWriter(Writer):
         """a op b of finite numbers where one is 0, 1 or -1 but for rounding, as the arm tells."""
         x = folded(a.constant) if a.fixed else None
         y = folded(b.constant) if b.fixed else None
-        if isinstance(op, ast.Mult) and 0.0 in (x, y):
+        product = isinstance(op, ast.Mult)
+        total = isinstance(op, (ast.Add, ast.Sub))
+        if product and 0.0 in (x, y):
             return scalar(0.0, DOUBLE, True)
-        if isinstance(op, ast.Mult) and x in (1.0, -1.0):
+        if product and x in (1.0, -1.0):
             return _signed(b, x == -1.0)
-        if isinstance(op, (ast.Mult, ast.Div)) and y in (1.0, -1.0):
+        if not total and y in (1.0, -1.0):
             return _signed(a, y == -1.0)
-        if isinstance(op, (ast.Add, ast.Sub)) and y == 0.0:
+        if total and y == 0.0:
             return as_double(a)
-        if isinstance(op, (ast.Add, ast.Sub)) and x == 0.0:
+        if total and x == 0.0:
             return _signed(b, isinstance(op, ast.Sub))
         return None
 
@@ -172,24 +186,23 @@ class ExpressionWriter(Writer):
             if isinstance(op, (ast.In, ast.NotIn)):
                 return self._among(node, operands[0], operand)
             operands.append(self.expression(operand))
-        operands[1:-1] = [self.held(value) for value in operands[1:-1]]
-        result = None
-        for k, op in enumerate(node.ops):
-            found = self._compared(node, op, operands[k], operands[k + 1])
-            result = found if result is None else self._joined("&&", AND, result, found)
-        if result is None:
-            self.refuse(node, "a comparison of nothing")
+        operands[1:-1] = map(self.held, operands[1:-1])
+        result = scalar(True, BOOL)
+        for op, (a, b) in zip(node.ops, pairwise(operands), strict=True):
+            found = self._compared(node, op, a, b)
+            result = self._joined("&&", AND, result, found)
         return result
 
     def _compared(self, node: ast.AST, op: ast.cmpop, a: CValue, b: CValue) -> CValue:
-        if isinstance(op, ast.Eq) and isinstance(a.type, CTuple) and isinstance(b.type, CTuple):
+        if isinstance(op, ast.Eq) and _both(CTuple, a, b):
             return self._same_tuple(node, a, b)
         entry = _COMPARISONS.get(type(op))
-        if entry is None or not isinstance(a.type, CScalar) or not isinstance(b.type, CScalar):
+        if entry is None or not _both(CScalar, a, b):
             self.refuse(node, f"the comparison {type(op).__name__} here")
         sign, binds, function = entry
         if a.known and b.known:
-            return scalar(function(a.constant, b.constant), BOOL, a.fixed or b.fixed)
+            holds = function(a.constant, b.constant)
+            return scalar(holds, BOOL, a.fixed or b.fixed)
         if DOUBLE in (a.type, b.type):
             a = as_double(a)
             b = as_double(b)
@@ -207,11 +220,8 @@ class ExpressionWriter(Writer):
 
     def _among(self, node: ast.Compare, value: CValue, where: ast.expr) -> CValue:
         """value in (a, b, ...)."""
-        if (
-            len(node.ops) > 1
-            or not isinstance(where, ast.Tuple)
-            or isinstance(node.ops[0], ast.NotIn)
-        ):
+        negated = isinstance(node.ops[0], ast.NotIn)
+        if len(node.ops) > 1 or negated or not isinstance(where, ast.Tuple):
             self.refuse(node, "`in` but of a tuple that is written there")
         value = self.held(value)
         result = scalar(False, BOOL)
@@ -229,21 +239,24 @@ class ExpressionWriter(Writer):
         return binary(sign, a, b, BOOL, binds)
 
     def _boolop(self, node: ast.BoolOp) -> CValue:
-        sign, binds = ("&&", AND) if isinstance(node.op, ast.And) else ("||", OR)
-        result = None
+        sign = "||"
+        binds = OR
+        if isinstance(node.op, ast.And):
+            sign = "&&"
+            binds = AND
+        result = scalar(sign == "&&", BOOL)
         for operand in node.values:
-            if result is not None and result.known and bool(result.constant) == (sign == "||"):
-                break
             found = self.test(operand)
-            result = found if result is None else self._joined(sign, binds, result, found)
-        if result is None:
-            self.refuse(node, "a condition of nothing")
+            result = self._joined(sign, binds, result, found)
+            if result.known and bool(result.constant) == (sign == "||"):
+                break
         return result
 
     def _ifexp(self, node: ast.IfExp) -> CValue:
         test = self.test(node.test)
         if test.known:
-            return self.expression(node.body if test.constant else node.orelse)
+            chosen = node.body if test.constant else node.orelse
+            return self.expression(chosen)
         a = self.expression(node.body)
         b = self.expression(node.orelse)
         kind = unify(a.type, b.type)
@@ -252,6 +265,11 @@ class ExpressionWriter(Writer):
         a = self.converted(node, a, kind)
         b = self.converted(node, b, kind)
         return CValue(kind, f"{test.within(OR)} ? {a.within(OR)} : {b.within(OR)}", 0)
+
+
+def _both(kind: type, a: CValue, b: CValue) -> bool:
+    """Whether two values are of one kind."""
+    return isinstance(a.type, kind) and isinstance(b.type, kind)
 
 
 def _signed(value: CValue, negative: bool) -> CValue:

@@ -6,11 +6,19 @@ import ast
 import inspect
 import textwrap
 from collections.abc import Callable, Iterator
-from typing import Any, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 from ...errors import InputError
 
 Blocks = tuple[int, ...]
+
+
+class _Use(NamedTuple):
+    """A name, the blocks around it, and whether it is assigned there."""
+
+    name: str
+    blocks: Blocks
+    stored: bool
 
 
 class FunctionSource:
@@ -24,16 +32,18 @@ class FunctionSource:
         self.function = function
         self.file = inspect.getsourcefile(function) or "?"
         lines, self.line = inspect.getsourcelines(function)
-        self.tree = self._definition(textwrap.dedent("".join(lines)))
+        text = textwrap.dedent("".join(lines))
+        self.tree = self._definition(text)
         self.parameters = [arg.arg for arg in self.tree.args.args]
-        self.names: dict[str, Any] = dict(inspect.getclosurevars(function).builtins)
+        self.names: dict[str, Any] = {}
+        self.names |= inspect.getclosurevars(function).builtins
         self.names |= function.__globals__
-        self.stores: dict[str, int] = dict.fromkeys(self.parameters, 0)
+        self.stores = dict.fromkeys(self.parameters, 0)
         self.homes: dict[str, Blocks | None] = {}
         self._loops: dict[str, list[Blocks]] = {}
         self._loads: dict[str, list[Blocks]] = {}
-        for name, blocks, stored in self._uses(self.tree.body, ()):
-            self._note(name, blocks, stored)
+        for use in self._uses(self.tree.body, ()):
+            self._note(use)
 
     def _definition(self, text: str) -> ast.FunctionDef:
         found = ast.parse(text).body[0]
@@ -49,8 +59,9 @@ class FunctionSource:
     @property
     def summary(self) -> str:
         """The docstring's first line."""
-        lines = (ast.get_docstring(self.tree) or "").split("\n\n")[0].splitlines()
-        return " ".join(line.strip() for line in lines)
+        text = ast.get_docstring(self.tree) or ""
+        paragraph, _, _ = text.partition("\n\n")
+        return " ".join(line.strip() for line in paragraph.splitlines())
 
     def refuse(self, node: ast.AST, construct: str) -> NoReturn:
         """Raise InputError: file, line and construct."""
@@ -60,57 +71,63 @@ class FunctionSource:
     def stays_in_loops(self, name: str) -> bool:
         """Whether a name is only the variable of loops, and only used inside of them."""
         loops = self._loops.get(name, [])
-        if name in self.parameters or self.stores.get(name, 0) != len(loops):
+        stores = self.stores.get(name, 0)
+        if name in self.parameters or stores != len(loops):
             return False
         loads = self._loads.get(name, [])
-        return all(any(use[: len(loop)] == loop for loop in loops) for use in loads)
+        return all(any(_is_in(use, loop) for loop in loops) for use in loads)
 
-    def _note(self, name: str, blocks: Blocks, stored: bool) -> None:
-        if stored:
+    def _note(self, use: _Use) -> None:
+        name = use.name
+        blocks = use.blocks
+        if use.stored:
             self.stores[name] = self.stores.get(name, 0) + 1
         else:
             self._loads.setdefault(name, []).append(blocks)
         if name not in self.homes:
-            self.homes[name] = blocks if stored else None
+            self.homes[name] = blocks if use.stored else None
             return
         home = self.homes[name]
-        if home is not None and blocks[: len(home)] != home:
+        if home is not None and not _is_in(blocks, home):
             self.homes[name] = None
 
-    def _uses(self, body: list[ast.stmt], blocks: Blocks) -> Iterator[tuple[str, Blocks, bool]]:
-        """Name, blocks and whether it is assigned, of each use in the order in which they run."""
+    def _uses(self, body: list[ast.stmt], blocks: Blocks) -> Iterator[_Use]:
+        """Uses of names in the order in which they run."""
         for statement in body:
-            inner = [(*blocks, id(statement), k) for k in range(2)]
-            if isinstance(statement, (ast.If, ast.While)):
-                yield from _names(statement.test, blocks)
-            elif isinstance(statement, ast.For):
-                yield from _names(statement.iter, blocks)
-                for name in ast.walk(statement.target):
-                    if isinstance(name, ast.Name):
-                        self._loops.setdefault(name.id, []).append(inner[0])
-                yield from _names(statement.target, inner[0])
-            elif isinstance(statement, (ast.Assign, ast.AugAssign)):
-                if isinstance(statement, ast.AugAssign) and isinstance(statement.target, ast.Name):
-                    yield statement.target.id, blocks, False
-                yield from _names(statement.value, blocks)
-                targets: list[ast.expr] = []
-                if isinstance(statement, ast.Assign):
-                    targets += statement.targets
-                else:
-                    targets.append(statement.target)
-                for target in targets:
+            inner = (*blocks, id(statement), 0)
+            match statement:
+                case ast.If() | ast.While():
+                    yield from _names(statement.test, blocks)
+                case ast.For(target, source):
+                    yield from _names(source, blocks)
+                    for use in _names(target, inner):
+                        self._loops.setdefault(use.name, []).append(inner)
+                        yield use
+                case ast.AugAssign(target, _, value):
+                    if isinstance(target, ast.Name):
+                        yield _Use(target.id, blocks, False)
+                    yield from _names(value, blocks)
                     yield from _names(target, blocks)
-            else:
-                yield from _names(statement, blocks)
+                case ast.Assign(targets, value):
+                    yield from _names(value, blocks)
+                    for target in targets:
+                        yield from _names(target, blocks)
+                case _:
+                    yield from _names(statement, blocks)
             if isinstance(statement, (ast.If, ast.While, ast.For)):
-                yield from self._uses(statement.body, inner[0])
-                yield from self._uses(statement.orelse, inner[1])
+                yield from self._uses(statement.body, inner)
+                yield from self._uses(statement.orelse, (*blocks, id(statement), 1))
 
 
-def _names(tree: ast.AST, blocks: Blocks) -> Iterator[tuple[str, Blocks, bool]]:
+def _names(tree: ast.AST, blocks: Blocks) -> Iterator[_Use]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Name):
-            yield node.id, blocks, isinstance(node.ctx, ast.Store)
+            yield _Use(node.id, blocks, isinstance(node.ctx, ast.Store))
+
+
+def _is_in(blocks: Blocks, outer: Blocks) -> bool:
+    """Whether the innermost of some blocks is in another block."""
+    return blocks[: len(outer)] == outer
 
 
 def always_returns(body: list[ast.stmt]) -> bool:

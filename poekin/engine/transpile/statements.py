@@ -7,15 +7,15 @@ import itertools
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from .c_types import DOUBLE, INT, CRow, CTable, CTuple, CType, unify
-from .calls import CallWriter
-from .function_source import Blocks, FunctionSource, always_returns
-from .values import Argument, CValue, Instance, InstanceSource, as_double, initial, scalar
+from .bindings import BindingWriter
+from .c_types import DOUBLE, INT, CTuple, CType, Pointer, unify
+from .function_source import FunctionSource, always_returns
+from .values import Argument, CValue, Instance, InstanceSource, scalar
 
 _MOST_RUNS = 20
 
 
-class FunctionWriter(CallWriter):
+class FunctionWriter(BindingWriter):
     """One function for arguments of given types.
 
     The body is written again until the types of its names, which of them are read, and which
@@ -25,44 +25,43 @@ class FunctionWriter(CallWriter):
     def __init__(
         self, source: FunctionSource, units: InstanceSource, arguments: list[Argument]
     ) -> None:
-        super().__init__(source, units)
-        self.arguments = dict(zip(source.parameters, arguments, strict=True))
+        super().__init__(source, units, arguments)
         self.returns: CType | None = None
-        self.live: set[str] | None = None
-        self.before: set[str] = set()
-        self.blocks: Blocks = ()
-        self.top: dict[str, CType] = {}
-        self.declared: set[str] = set()
 
     def write(self, instance: Instance) -> None:
         """Text, type and needs of the function."""
         for _ in range(_MOST_RUNS):
-            state = (dict(self.types), self.live, set(self.written), self.returns)
+            types = dict(self.types)
+            written = set(self.written)
+            before = (types, self.live, written, self.returns)
             self._run()
             self.live = set(self.read)
-            if state == (self.types, self.live, self.written, self.returns):
+            if before == (self.types, self.live, self.written, self.returns):
                 break
-        instance.written = {name for name in self.written if name in self.arguments}
-        instance.runtime = [name for name, given in self.arguments.items() if given.told is None]
+        arguments = self.arguments
+        instance.written = self.written & arguments.keys()
+        instance.runtime = [name for name, given in arguments.items() if given.told is None]
         instance.returns = self.returns
         instance.tell(self.results)
         instance.called = list(self.called)
-        returned = "void" if self.returns is None else self.structures.spell(self.returns)
-        parameters = ", ".join(self._parameter(name) for name in instance.runtime)
-        instance.head = f"static inline {returned} {instance.name}({parameters or 'void'})"
-        unread = [name for name in instance.runtime if name not in self.read | self.written]
-        lines = [f"    (void){self.c_name(name)};" for name in unread]
-        lines += [
-            f"    {self.structures.spell(kind)} {self.c_name(name)};"
-            for name, kind in self.top.items()
-        ]
-        instance.text = "\n".join([instance.head, "{", *lines, *self.lines, "}"])
+        returned = "void"
+        if self.returns is not None:
+            returned = self.structures.spell(self.returns)
+        parameters = ", ".join(map(self._parameter, instance.runtime)) or "void"
+        instance.head = f"static inline {returned} {instance.name}({parameters})"
+        used = self.read | self.written
+        unread = [name for name in instance.runtime if name not in used]
+        lines = [instance.head, "{"]
+        lines += [f"    (void){self.c_name(name)};" for name in unread]
+        for name, kind in self.top.items():
+            lines.append(f"    {self.structures.spell(kind)} {self.c_name(name)};")
+        lines += [*self.lines, "}"]
+        instance.text = "\n".join(lines)
 
     def _run(self) -> None:
         self.lines = []
         self.temporaries = 0
         self.read = set()
-        self.before = set(self.written)
         self.called = {}
         self.top = {}
         self.declared = set()
@@ -75,20 +74,14 @@ class FunctionWriter(CallWriter):
                 continue
             self.types[name] = given.type
             self.roots[name] = name
-        self.body(self.source.tree.body)
-        if self.returns is not None and not always_returns(self.source.tree.body):
-            self.refuse(self.source.tree, "a function that may end without its value")
+        tree = self.source.tree
+        self.body(tree.body)
+        if self.returns is not None and not always_returns(tree.body):
+            self.refuse(tree, "a function that may end without its value")
 
     def _parameter(self, name: str) -> str:
         kind = self.arguments[name].type
-        return self._declaration(kind, name, name, "")
-
-    def _declaration(self, kind: CType, name: str, root: str, const: str) -> str:
-        """Type and name; a pointer is to what is not written, unless it is."""
-        if isinstance(kind, (CRow, CTable)):
-            star = "double *" if root in self.written else "const double *"
-            return f"{star}{const}{self.c_name(name)}"
-        return f"{const}{self.structures.spell(kind)} {self.c_name(name)}"
+        return self.declaration(kind, name, name)
 
     def body(self, statements: list[ast.stmt]) -> None:
         """Statements one after the other, up to the first that leaves."""
@@ -101,8 +94,8 @@ class FunctionWriter(CallWriter):
         if isinstance(node, ast.If):
             return self._if(node)
         methods = {
-            ast.Assign: self._assign,
-            ast.AugAssign: self._augmented,
+            ast.Assign: self.assign,
+            ast.AugAssign: self.augmented,
             ast.For: self._for,
             ast.While: self._while,
             ast.Return: self._return,
@@ -145,131 +138,19 @@ class FunctionWriter(CallWriter):
             self.put("return;")
             return
         value = self.expression(node.value)
-        kind = value.type if self.returns is None else unify(self.returns, value.type)
-        if kind is None or isinstance(kind, (CRow, CTable)):
+        kind = unify(self.returns or value.type, value.type)
+        if kind is None or isinstance(kind, Pointer):
             self.refuse(node, "a result of two types, or a row as a result,")
         self.returns = kind
         self.results.append(value)
         self.put(f"return {self.converted(node, value, kind).text};")
 
-    def _assign(self, node: ast.Assign) -> None:
-        if len(node.targets) > 1:
-            self.refuse(node, "an assignment to several targets")
-        target = node.targets[0]
-        if isinstance(target, (ast.Tuple, ast.List)):
-            self._unpack(node, target)
-        elif isinstance(target, ast.Subscript):
-            self._store(node, target, as_double(self.expression(node.value)))
-        elif isinstance(target, ast.Name):
-            self._name_value(node, target.id)
-        else:
-            self.refuse(node, f"an assignment to {ast.unparse(target)}")
-
-    def _name_value(self, node: ast.Assign, name: str) -> None:
-        """name = value, left out where nothing reads it."""
-        mark = self.mark()
-        value = self.expression(node.value)
-        if self.live is not None and name not in self.live and not value.known:
-            if not isinstance(node.value, ast.Call):
-                self.back_to(mark)
-                return
-            self.put(f"(void){value.text};")
-            return
-        self.bind(node, name, value)
-
-    def bind(self, node: ast.AST, name: str, value: CValue) -> None:
-        """Give a name a value."""
-        once = self.source.stores[name] == 1 and name not in self.source.parameters
-        stays = value.fixed or value.type == INT or isinstance(value.type, (CRow, CTable))
-        if once and value.known and stays:
-            self.known[name] = value
-            return
-        self.known.pop(name, None)
-        if self.live is not None and name not in self.live:
-            return
-        kind = unify(self.types.get(name, value.type), value.type)
-        if kind is None:
-            self.refuse(node, f"the name {name} for values of two types")
-        if isinstance(kind, (CRow, CTable)):
-            if not once:
-                self.refuse(node, f"the name {name} for several rows")
-            self.roots[name] = value.root
-        elif name in self.arguments and self.types[name] != kind:
-            self.refuse(node, f"the parameter {name} for values of two types")
-        self.types[name] = kind
-        if once and any(value.told):
-            self.told[name] = value.told
-        text = self.converted(node, value, kind).text
-        parameter = name in self.arguments and self.arguments[name].told is None
-        if parameter or name in self.declared or self.source.homes[name] != self.blocks:
-            if not parameter and name not in self.declared:
-                self.top[name] = kind
-            self.put(f"{self.c_name(name)} = {text};")
-            return
-        self.declared.add(name)
-        const = "const " if self.source.stores[name] == 1 else ""
-        text = initial(text, self.structures.spell(kind))
-        self.put(f"{self._declaration(kind, name, self.roots.get(name, ''), const)} = {text};")
-
-    def _unpack(self, node: ast.Assign, target: ast.Tuple | ast.List) -> None:
-        before = set(self.read)
-        value = self.expression(node.value)
-        if not isinstance(value.type, (CTuple, CRow)):
-            self.refuse(node, "unpacking a number")
-        if isinstance(node.value, ast.Name) and self._are_unread(target.elts):
-            self.read = before
-            return
-        items = self.items(value)
-        if len(items) != len(target.elts):
-            self.refuse(node, f"unpacking {len(items)} values into {len(target.elts)} names")
-        kept = [not (isinstance(name, ast.Name) and name.id == "_") for name in target.elts]
-        if isinstance(node.value, ast.Tuple):
-            # all are taken before one is given another value
-            items = [self._apart(item) if k else item for item, k in zip(items, kept, strict=True)]
-        for name, item in zip(target.elts, items, strict=True):
-            if isinstance(name, ast.Subscript):
-                self._store(node, name, as_double(item))
-            elif not isinstance(name, ast.Name):
-                self.refuse(node, f"unpacking into {ast.unparse(name)}")
-            elif name.id != "_":
-                self.bind(node, name.id, item)
-
-    def _are_unread(self, targets: list[ast.expr]) -> bool:
-        """Whether targets are names that nothing reads."""
-        if self.live is None:
-            return False
-        return all(isinstance(name, ast.Name) and name.id not in self.live for name in targets)
-
-    def _apart(self, value: CValue) -> CValue:
-        """The value as it is now."""
-        if value.known:
-            return value
-        return self.held(CValue(value.type, value.text, 0))
-
-    def _store(self, node: ast.AST, target: ast.Subscript, value: CValue) -> None:
-        """row[i] = value."""
-        place = self.expression(target)
-        if place.type != DOUBLE or not place.root:
-            self.refuse(node, f"writing to {ast.unparse(target)}")
-        self.written.add(place.root)
-        self.put(f"{place.text} = {value.text};")
-
-    def _augmented(self, node: ast.AugAssign) -> None:
-        read = ast.copy_location(ast.parse(ast.unparse(node.target), mode="eval").body, node)
-        old = self.expression(read)
-        value = self.arithmetic(node, node.op, old, self.expression(node.value))
-        if isinstance(node.target, ast.Name):
-            self.bind(node, node.target.id, value)
-        elif isinstance(node.target, ast.Subscript):
-            self._store(node, node.target, as_double(value))
-        else:
-            self.refuse(node, f"an assignment to {ast.unparse(node.target)}")
-
     def _if(self, node: ast.If) -> bool:
         test = self.test(node.test)
         if test.known:
-            chosen = node.body if test.constant else node.orelse
-            with self._inside(node, 0 if test.constant else 1, deeper=False):
+            part = 0 if test.constant else 1
+            chosen = (node.body, node.orelse)[part]
+            with self._inside(node, part, deeper=False):
                 self.body(chosen)
             return always_returns(chosen)
         self.put(f"if ({test.text}) {{")
@@ -283,7 +164,8 @@ class FunctionWriter(CallWriter):
             with self._inside(node, 1):
                 self.body(node.orelse)
             self.known = known
-            if len(node.orelse) == 1 and isinstance(node.orelse[0], ast.If):
+            first, *others = node.orelse
+            if isinstance(first, ast.If) and not others:
                 self._join_else_if(start)
         self.put("}")
         return False
@@ -293,10 +175,11 @@ class FunctionWriter(CallWriter):
         inner = self.lines[start + 1 :]
         deeper = "    " * (self.indent + 1)
         ends = [k for k, line in enumerate(inner) if line == f"{deeper}}}"]
-        if inner and inner[0].startswith(f"{deeper}if (") and ends == [len(inner) - 1]:
-            joined = [line[4:] for line in inner[:-1]]
-            joined[0] = "    " * self.indent + "} else " + joined[0].strip()
-            self.lines[start:] = joined
+        alone = ends == [len(inner) - 1]
+        if alone and inner[0].startswith(f"{deeper}if ("):
+            first, *others = inner[:-1]
+            joined = "    " * self.indent + "} else " + first.strip()
+            self.lines[start:] = [joined, *(line[4:] for line in others)]
 
     def _while(self, node: ast.While) -> None:
         if node.orelse:
@@ -313,8 +196,10 @@ class FunctionWriter(CallWriter):
             self.put(f"    if (!({test.text})) {{")
             self.put("        break;")
             self.put("    }")
+        elif test.known and test.constant:
+            self.put("for (;;) {")
         else:
-            self.put("for (;;) {" if test.known and test.constant else f"while ({test.text}) {{")
+            self.put(f"while ({test.text}) {{")
         with self._inside(node, 0):
             self.body(node.body)
         self.put("}")
@@ -322,30 +207,37 @@ class FunctionWriter(CallWriter):
     def _for(self, node: ast.For) -> None:
         if node.orelse or not isinstance(node.target, ast.Name):
             self.refuse(node, "`else` of a loop, or a loop over several names,")
-        called = isinstance(node.iter, ast.Call) and isinstance(node.iter.func, ast.Name)
-        if called and node.iter.func.id == "range":  # type: ignore[attr-defined]
-            self._for_range(node, node.target.id, self.listed(node.iter.args))  # type: ignore[attr-defined]
-            return
+        name = node.target.id
         leaves = any(isinstance(inner, (ast.Break, ast.Continue)) for inner in ast.walk(node))
-        listed = isinstance(node.iter, ast.Tuple) and not leaves
-        if listed:
-            items = self.listed(node.iter.elts)  # type: ignore[attr-defined]
-        else:
-            value = self.expression(node.iter)
-            if not isinstance(value.type, CTuple):
-                self.refuse(node, "a loop over anything but range and a tuple")
-            if value.type.uniform:
-                self._for_items(node, node.target.id, self.held(value))
+        match node.iter:
+            case ast.Call(ast.Name("range"), bounds):
+                self._for_range(node, name, self.listed(bounds))
                 return
-            if leaves:
-                self.refuse(node, "break or continue in a loop over a tuple of several types")
-            items = self.items(value)
+            case ast.Tuple(items) if not leaves:
+                self._for_each(node, name, self.listed(items))
+                return
+        value = self.expression(node.iter)
+        if not isinstance(value.type, CTuple):
+            self.refuse(node, "a loop over anything but range and a tuple")
+        if value.type.uniform:
+            self._for_items(node, name, self.held(value), value.type)
+            return
+        if leaves:
+            self.refuse(node, "break or continue in a loop over a tuple of several types")
+        self._for_each(node, name, self.items(value))
+
+    def _for_each(self, node: ast.For, name: str, items: list[CValue]) -> None:
+        """The body of a loop for each item, one after the other."""
         for item in items:
             self.put("{")
-            with self._inside(node, 0):
-                self.bind(node, node.target.id, item)
-                self.body(node.body)
-            self.put("}")
+            self._body_with(node, name, item)
+
+    def _body_with(self, node: ast.For, name: str, item: CValue) -> None:
+        """The body of a loop, its name bound to an item, and its end."""
+        with self._inside(node, 0):
+            self.bind(node, name, item)
+            self.body(node.body)
+        self.put("}")
 
     def _counter(self) -> str:
         for k in itertools.count(self.temporaries + 1):
@@ -354,16 +246,12 @@ class FunctionWriter(CallWriter):
                 return f"k{k}"
         raise RuntimeError("no name is left")
 
-    def _for_items(self, node: ast.For, name: str, value: CValue) -> None:
+    def _for_items(self, node: ast.For, name: str, value: CValue, kind: CTuple) -> None:
         """A loop over the items of an array."""
-        if not isinstance(value.type, CTuple):
-            self.refuse(node, "a loop over a number")
         k = self._counter()
-        self.put(f"for (int {k} = 0; {k} < {len(value.type.items)}; {k}++) {{")
-        with self._inside(node, 0):
-            self.bind(node, name, CValue(value.type.items[0], f"{value.text}.v[{k}]"))
-            self.body(node.body)
-        self.put("}")
+        self.put(f"for (int {k} = 0; {k} < {len(kind.items)}; {k}++) {{")
+        item = CValue(kind.items[0], f"{value.text}.v[{k}]")
+        self._body_with(node, name, item)
 
     def _stays(self, value: CValue) -> bool:
         """Whether a bound is a name that has one value as long as a loop runs."""
@@ -376,13 +264,13 @@ class FunctionWriter(CallWriter):
         """A loop over range; its name is a name of the loop alone."""
         if not 1 <= len(bounds) <= 3 or any(bound.type == DOUBLE for bound in bounds):
             self.refuse(node, "range of anything but one to three integers")
-        start = bounds[0] if len(bounds) > 1 else scalar(0, INT)
-        stop = bounds[0] if len(bounds) == 1 else bounds[1]
-        step = bounds[2] if len(bounds) == 3 else scalar(1, INT)
+        if len(bounds) == 1:
+            bounds = [scalar(0, INT), *bounds]
+        start, stop, step = [*bounds, scalar(1, INT)][:3]
         if not step.known or step.constant == 0:
             self.refuse(node, "range with a step that is not known")
         if not stop.known and not self._stays(stop):
-            stop = self._apart(stop)
+            stop = self.apart(stop)
         if name == "_":
             counter = self._counter()
         else:
@@ -391,10 +279,10 @@ class FunctionWriter(CallWriter):
             counter = self.c_name(name)
             self.types[name] = INT
         sign = "<" if step.constant > 0 else ">"
-        count = {1: f"{counter}++", -1: f"{counter}--"}.get(
-            step.constant, f"{counter} += {step.text}"
-        )
-        self.put(f"for (int {counter} = {start.text}; {counter} {sign} {stop.text}; {count}) {{")
+        ahead = {1: "++", -1: "--"}.get(step.constant, f" += {step.text}")
+        begin = f"int {counter} = {start.text}"
+        goes_on = f"{counter} {sign} {stop.text}"
+        self.put(f"for ({begin}; {goes_on}; {counter}{ahead}) {{")
         with self._inside(node, 0):
             self.body(node.body)
         self.put("}")

@@ -45,16 +45,23 @@ class TranslationUnit:
         """
         values = np.array(values, np.float64)
         full = f"{self.prefix}_{name}"
-        rows = [", ".join(map(number, row)) for row in np.atleast_2d(values).tolist()]
+        table = np.atleast_2d(values).tolist()
+        rows = [", ".join(map(number, row)) for row in table]
         body = ",\n".join(f"    {row}" for row in rows)
         self._constants[full] = f"static const double {full}[{values.size}] = {{\n{body}\n}};"
-        kind: CType = CRow(len(values)) if values.ndim == 1 else CTable(*values.shape)
-        return Argument(kind, CValue(kind, full, constant=values, fixed=True))
+        kind: CType
+        if values.ndim == 1:
+            kind = CRow(len(values))
+        else:
+            kind = CTable(*values.shape)
+        told = CValue(kind, full, constant=values, fixed=True)
+        return Argument(kind, told)
 
     def function(self, function: Callable) -> Argument:
         """A function as an argument."""
         name = f"{function.__module__}.{function.__qualname__}"
-        return Argument(FUNCTION, CValue(FUNCTION, name, constant=function, fixed=True))
+        told = CValue(FUNCTION, name, constant=function, fixed=True)
+        return Argument(FUNCTION, told)
 
     def integer(self, value: int) -> Argument:
         """A known integer as an argument: functions are written for it."""
@@ -122,8 +129,8 @@ class TranslationUnit:
             _add(entry, ordered)
         functions = [instance.text for instance in ordered if instance.text]
         whole = "\n".join(functions)
-        constants = [text for name, text in self._constants.items() if _names(name, whole)]
-        helpers = [text for name, text in self._helpers.items() if _names(name, whole)]
+        constants = _used_in(whole, self._constants)
+        helpers = _used_in(whole, self._helpers)
         structures = self.structures.used_in("\n".join([*constants, whole]))
         parts = ["\n".join(structures), *constants, *helpers, *functions]
         return wrapped("\n\n".join(part for part in parts if part))
@@ -154,13 +161,18 @@ def _add(instance: Instance, ordered: dict[Instance, None]) -> None:
         ordered[instance] = None
 
 
-def _names(name: str, text: str) -> bool:
-    return any(f"{name}{end}" in text for end in " ()[],.;")
+def _used_in(text: str, definitions: dict[str, str]) -> list[str]:
+    """The definitions whose names stand in a text."""
+    found = []
+    for name, definition in definitions.items():
+        if any(f"{name}{end}" in text for end in " ()[],.;"):
+            found.append(definition)
+    return found
 
 
 def _plain(text: str) -> str:
     """Words for a comment in ASCII, which cannot end it."""
-    ascii_only = text.encode("ascii", "xmlcharrefreplace").decode("ascii")
-    return (
-        ascii_only.replace("*/", "* /").replace("/*", "/ *").replace("\\", "/").replace("??", "? ?")
-    )
+    plain = text.encode("ascii", "xmlcharrefreplace").decode("ascii")
+    for special, harmless in (("*/", "* /"), ("/*", "/ *"), ("\\", "/"), ("??", "? ?")):
+        plain = plain.replace(special, harmless)
+    return plain

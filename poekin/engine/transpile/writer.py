@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 from types import ModuleType
-from typing import Any, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from .c_types import (
     CTable,
     CTuple,
     CType,
+    Pointer,
     Structures,
     type_of_constant,
 )
@@ -46,6 +47,15 @@ scalbn signbit signgam sin sinh sqrt tan tanh tgamma trunc y0 y1 yn isfinite isi
 NAN HUGE_VAL INFINITY
 """
 RESERVED = frozenset(_WORDS.split())
+
+
+class Mark(NamedTuple):
+    """State of a text: its number of lines, names that are read, functions that are called."""
+
+    lines: int
+    read: set[str]
+    called: dict[Instance, None]
+    temporaries: int
 
 
 class Writer:
@@ -77,14 +87,18 @@ class Writer:
         """A line of C."""
         self.lines.append("    " * self.indent + text)
 
-    def mark(self) -> tuple[int, set[str], dict[Instance, None], int]:
+    def mark(self) -> Mark:
         """State of the text, to which `back_to` brings it back."""
-        return len(self.lines), set(self.read), dict(self.called), self.temporaries
+        read = set(self.read)
+        called = dict(self.called)
+        return Mark(len(self.lines), read, called, self.temporaries)
 
-    def back_to(self, mark: tuple[int, set[str], dict[Instance, None], int]) -> None:
+    def back_to(self, mark: Mark) -> None:
         """Forget what was written since a mark."""
-        del self.lines[mark[0] :]
-        self.read, self.called, self.temporaries = mark[1:]
+        del self.lines[mark.lines :]
+        self.read = mark.read
+        self.called = mark.called
+        self.temporaries = mark.temporaries
 
     def c_name(self, name: str) -> str:
         """A local name in C."""
@@ -94,7 +108,7 @@ class Writer:
 
     def held(self, value: CValue) -> CValue:
         """The value with a name, so that its text may stand twice."""
-        if value.simple or isinstance(value.type, (CRow, CTable)):
+        if value.simple or isinstance(value.type, Pointer):
             return value
         self.temporaries += 1
         name = f"t{self.temporaries}"
@@ -118,12 +132,10 @@ class Writer:
         if kind == DOUBLE and isinstance(value.type, CScalar):
             return as_double(value)
         if kind == INT and value.type == BOOL:
-            return CValue(INT, value.text, value.binds, value.constant, value.fixed)
+            return replace(value, type=INT, root="", parts=())
         if isinstance(kind, CTuple) and isinstance(value.type, CTuple):
-            items = [
-                self.converted(node, item, k)
-                for item, k in zip(self.items(value), kind.items, strict=True)
-            ]
+            pairs = zip(self.items(value), kind.items, strict=True)
+            items = [self.converted(node, item, k) for item, k in pairs]
             return self.make_tuple(items)
         self.refuse(node, "a value of two types")
 
@@ -134,9 +146,11 @@ class Writer:
             return list(value.parts)
         if isinstance(kind, CTuple):
             value = self.held(value)
-            return [self.member(value, k) for k in range(len(kind.items))]
+            numbers = range(len(kind.items))
+            return [self.member(value, k) for k in numbers]
         if isinstance(kind, CRow):
-            return [CValue(DOUBLE, f"{value.within(PRIMARY)}[{k}]") for k in range(kind.length)]
+            row = value.within(PRIMARY)
+            return [CValue(DOUBLE, f"{row}[{k}]") for k in range(kind.length)]
         raise TypeError(f"expected a tuple, got {kind}")
 
     def member(self, value: CValue, k: int) -> CValue:
@@ -150,24 +164,31 @@ class Writer:
 
     def in_parts(self, value: CValue, told: tuple[CValue | None, ...]) -> CValue:
         """A tuple by its name, of which some items are known."""
-        parts = [member(value, k) if item is None else item for k, item in enumerate(told)]
+        parts = list(told)
+        for k, item in enumerate(told):
+            if item is None:
+                parts[k] = member(value, k)
         return replace(value, parts=tuple(parts))
 
     def make_tuple(self, items: list[CValue]) -> CValue:
         """A tuple of values."""
         kind = CTuple(tuple(item.type for item in items))
-        inner = ", ".join(initial(item.text, self.structures.spell(item.type)) for item in items)
+        texts = [initial(item.text, self.structures.spell(item.type)) for item in items]
+        inner = ", ".join(texts)
         braces = f"{{{{{inner}}}}}" if kind.uniform else f"{{{inner}}}"
         constant = UNKNOWN
+        constant = UNKNOWN
+        fixed = False
         if all(item.known for item in items):
             constant = tuple(item.constant for item in items)
-        fixed = constant is not UNKNOWN and any(item.fixed for item in items)
+            fixed = any(item.fixed for item in items)
         text = f"({self.structures.spell(kind)}){braces}"
-        return CValue(kind, text, UNARY, constant, fixed, parts=tuple(items))
+        parts = tuple(items)
+        return CValue(kind, text, UNARY, constant, fixed, parts=parts)
 
     def constant(self, node: ast.AST, value: Any, name: str, fixed: bool = False) -> CValue:
         """A value that Python knows."""
-        if isinstance(value, (np.floating, np.bool_, np.integer)):
+        if isinstance(value, np.generic):
             value = value.item()
         kind = type_of_constant(value)
         if kind is None:
@@ -176,8 +197,8 @@ class Writer:
             return scalar(value, kind, fixed)
         if name and not fixed:
             return self.global_constant(name, value, kind)
-        made = self.make_tuple([self.constant(node, item, "", fixed) for item in value])
-        return made
+        items = [self.constant(node, item, "", fixed) for item in value]
+        return self.make_tuple(items)
 
     def python_value(self, node: ast.expr) -> Any:
         """Value of a module's name, or of a name of a module that it imports."""
@@ -186,8 +207,9 @@ class Writer:
             if isinstance(owner, ModuleType) and hasattr(owner, node.attr):
                 return getattr(owner, node.attr)
             self.refuse(node, f"the attribute {node.attr}")
-        if isinstance(node, ast.Name) and node.id in self.source.names:
-            return self.source.names[node.id]
+        names = self.source.names
+        if isinstance(node, ast.Name) and node.id in names:
+            return names[node.id]
         self.refuse(node, f"the name {ast.unparse(node)}")
 
     def _subscript(self, node: ast.Subscript) -> CValue:
@@ -203,10 +225,10 @@ class Writer:
     def item(self, node: ast.AST, value: CValue, index: CValue) -> CValue:
         """value[index]."""
         kind = value.type
-        if index.type == DOUBLE or not isinstance(kind, (CTuple, CRow, CTable)):
+        if index.type == DOUBLE or isinstance(kind, CScalar):
             self.refuse(node, f"an index of {value.text} here")
         if index.known:
-            length = len(kind.items) if isinstance(kind, CTuple) else rows_of(kind)
+            length = rows_of(kind)
             if not -length <= index.constant < length:
                 self.refuse(node, f"the index {index.constant} of {length}")
             index = scalar(index.constant % length, INT, index.fixed)
@@ -222,22 +244,22 @@ class Writer:
         if isinstance(kind, CTable):
             text = shifted(value, index, kind.columns)
             binds = PRIMARY if text == value.text else SUM
-            return CValue(CRow(kind.columns), text, binds, constant, value.fixed, value.root)
+            row = CRow(kind.columns)
+            return CValue(row, text, binds, constant, value.fixed, value.root)
         return self._number_of_row(value, index, constant)
 
     def _number_of_row(self, value: CValue, index: CValue, constant: Any) -> CValue:
         """A number of a row, at one index of the pointer that the row is counted from."""
         if constant is not UNKNOWN:
-            known = scalar(float(constant), DOUBLE, value.fixed)
-            return known
+            return scalar(float(constant), DOUBLE, value.fixed)
         base, _, offset = value.text.partition(" + ")
-        if not offset:
-            return CValue(DOUBLE, f"{base}[{index.text}]", root=value.root)
-        if offset.isdigit() and index.known:
-            return CValue(DOUBLE, f"{base}[{int(offset) + index.constant}]", root=value.root)
         text = f"{offset} + {index.text}"
-        if index.known and index.constant == 0:
+        if not offset:
+            text = index.text
+        elif index.known and index.constant == 0:
             text = offset
+        elif index.known and offset.isdigit():
+            text = str(int(offset) + index.constant)
         return CValue(DOUBLE, f"{base}[{text}]", root=value.root)
 
     def _slice(self, node: ast.Subscript, value: CValue, part: ast.slice | ast.Slice) -> CValue:
@@ -251,36 +273,46 @@ class Writer:
         if part.step is not None:  # type: ignore[union-attr]
             self.refuse(node, "a slice with a step")
         kind = value.type
+        chosen = slice(*bounds)
         if isinstance(kind, CTuple):
-            items = self.items(value)[bounds[0] : bounds[1]]
+            items = self.items(value)[chosen]
             if items:
                 return self.make_tuple(items)
-        if isinstance(kind, (CRow, CTable)):
-            chosen = range(rows_of(kind))[bounds[0] : bounds[1]]
-            start = scalar(chosen.start, INT)
-            wide = kind.columns if isinstance(kind, CTable) else 1
+        if isinstance(kind, Pointer):
+            rows = range(rows_of(kind))[chosen]
+            start = scalar(rows.start, INT)
+            wide = 1
+            shape: CType = CRow(len(rows))
+            if isinstance(kind, CTable):
+                wide = kind.columns
+                shape = CTable(len(rows), wide)
             text = shifted(value, start, wide)
-            shape = CTable(len(chosen), wide) if isinstance(kind, CTable) else CRow(len(chosen))
-            return CValue(shape, text, PRIMARY if text == value.text else SUM, root=value.root)
+            binds = PRIMARY if text == value.text else SUM
+            return CValue(shape, text, binds, root=value.root)
         self.refuse(node, "a slice here")
 
 
-def rows_of(kind: CRow | CTable) -> int:
+def rows_of(kind: CTuple | CRow | CTable) -> int:
     """Length of the first axis."""
-    return kind.rows if isinstance(kind, CTable) else kind.length
+    if isinstance(kind, CTuple):
+        return len(kind.items)
+    if isinstance(kind, CRow):
+        return kind.length
+    return kind.rows
 
 
 def shifted(value: CValue, index: CValue, wide: int) -> str:
     """Pointer to row `index` of rows of `wide` numbers."""
     if index.known:
         base, _, offset = value.text.partition(" + ")
+        ahead = index.constant * wide
         if index.constant == 0:
             return value.text
         if not offset:
-            return f"{base} + {index.constant * wide}"
+            return f"{base} + {ahead}"
         if offset.isdigit():
-            return f"{base} + {int(offset) + index.constant * wide}"
-        return f"{value.text} + {index.constant * wide}"
+            return f"{base} + {int(offset) + ahead}"
+        return f"{value.text} + {ahead}"
     if wide == 1:
         return f"{value.text} + {index.within(SUM)}"
     return f"{value.text} + {wide} * {index.within(UNARY)}"

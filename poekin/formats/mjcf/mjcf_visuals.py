@@ -75,7 +75,8 @@ def read(text: str | bytes, name: str) -> Visuals:
                 path = os.path.abspath(name)
         _, model, (_, geoms) = mjcf.compiled(text, name, path, _prepared)
     except PoekinError as fault:
-        return Visuals((), (LeftOut("world", Source(name).place(), "<mujoco>", str(fault)),))
+        place = Source(name).place()
+        return Visuals((), (LeftOut("world", place, "<mujoco>", str(fault)),))
     source = Source(name)
     reader = ModelReader(model)
     found = []
@@ -86,10 +87,11 @@ def read(text: str | bytes, name: str) -> Visuals:
         place = source.place(geom.line)
         if body in reader.gone:
             continue
+        link = reader.links[body]
         if geom.why:
-            left_out.append(LeftOut(reader.links[body], place, "<geom>", geom.why))
+            left_out.append(LeftOut(link, place, "<geom>", geom.why))
         else:
-            found.append(_visual(geom, model, reader.links[body], place))
+            found.append(_visual(geom, model, link, place))
     return Visuals(tuple(found), tuple(left_out))
 
 
@@ -119,7 +121,8 @@ def _geom(
     why = ""
     mesh = None
     if kind not in SHAPES:
-        why = f"geoms of the type {geom.type.name.removeprefix('mjGEOM_').lower()} are not drawn"
+        called = geom.type.name.removeprefix("mjGEOM_")
+        why = f"geoms of the type {called.lower()} are not drawn"
     elif geom.meshname and SHAPES[kind] != "mesh":
         why = "a shape that is fitted to a mesh"
     elif SHAPES[kind] == "mesh":
@@ -133,39 +136,49 @@ def _geom(
 
 def _name(mesh: Any) -> str:
     """Name of a mesh: one without is called after its file, which older versions do as they compile."""
-    return mesh.name or os.path.splitext(os.path.basename(mesh.file))[0]
+    if mesh.name:
+        return mesh.name
+    file = os.path.basename(mesh.file)
+    return os.path.splitext(file)[0]
 
 
 def _mesh(mesh: Any, folder: str) -> _Mesh:
     vertices = np.array(list(mesh.uservert), dtype=float)
     faces = np.array(list(mesh.userface), dtype=np.int64)
     triangles = None
-    if len(vertices) and len(faces) and len(vertices) % 3 == len(faces) % 3 == 0:
+    whole = len(vertices) % 3 == len(faces) % 3 == 0
+    if len(vertices) and len(faces) and whole:
         triangles = vertices.reshape(-1, 3), faces.reshape(-1, 3)
     file = str(mesh.file)
     if file:
         file = os.path.join(folder, file)
     turn = np.array(mesh.refquat, dtype=float)
     turn /= np.linalg.norm(turn) or 1.0
-    reference = mjcf.poses(np.array([mesh.refpos], dtype=float), turn[None])[0]
-    return _Mesh(tuple(map(float, mesh.scale)), se3.inverse(reference), file, triangles)
+    place = np.array([mesh.refpos], dtype=float)
+    reference = mjcf.poses(place, turn[None])[0]
+    scale = tuple(map(float, mesh.scale))
+    return _Mesh(scale, se3.inverse(reference), file, triangles)
 
 
 def _drawn(geoms: list[_Geom], model: Any) -> list[_Geom]:
     """Geoms that are drawn: not those for contacts alone, nor those that cannot be seen."""
-    seen = [geom for geom in geoms if geom.color is None or geom.color[3] > 0]
+    seen = [geom for geom in geoms if _is_opaque(geom)]
     shown = [geom for geom in seen if geom.geom.group in SHOWN_GROUPS] or seen
+    bodies = [int(model.geom_bodyid[geom.geom.id]) for geom in shown]
+    groups = [int(geom.geom.group) for geom in shown]
     looks: dict[int, set[int]] = {}
-    for geom in shown:
+    for geom, body, group in zip(shown, bodies, groups, strict=True):
         if not (geom.geom.contype or geom.geom.conaffinity):
-            body = int(model.geom_bodyid[geom.geom.id])
-            looks.setdefault(body, set()).add(int(geom.geom.group))
-    return [
-        geom
-        for geom in shown
-        if int(geom.geom.group)
-        in looks.get(int(model.geom_bodyid[geom.geom.id]), {int(geom.geom.group)})
-    ]
+            looks.setdefault(body, set()).add(group)
+    drawn = []
+    for geom, body, group in zip(shown, bodies, groups, strict=True):
+        if group in looks.get(body, {group}):
+            drawn.append(geom)
+    return drawn
+
+
+def _is_opaque(geom: _Geom) -> bool:
+    return geom.color is None or geom.color[3] > 0
 
 
 def _visual(
@@ -175,12 +188,14 @@ def _visual(
     place: str,
 ) -> Visual:
     number = int(geom.geom.id)
-    T = mjcf.poses(model.geom_pos[[number]], model.geom_quat[[number]])[0]
+    turns = model.geom_quat[[number]]
+    T = mjcf.poses(model.geom_pos[[number]], turns)[0]
     shape = SHAPES[geom.type]
     if geom.mesh is not None:
         scale, before, file, triangles = geom.mesh
         return Visual(link, T, shape, scale, geom.color, place, file, triangles, before)
-    return Visual(link, T, shape, _size(shape, model.geom_size[number]), geom.color, place)
+    size = _size(shape, model.geom_size[number])
+    return Visual(link, T, shape, size, geom.color, place)
 
 
 def _size(shape: Shape, size: Array) -> tuple[float, ...]:
@@ -195,11 +210,14 @@ def _size(shape: Shape, size: Array) -> tuple[float, ...]:
 
 
 def _rgba(element: Any) -> Color:
-    r, g, b, alpha = (min(max(round(float(value), 6), 0.0), 1.0) for value in element.rgba)
+    rounded = (round(float(value), 6) for value in element.rgba)
+    r, g, b, alpha = (min(max(value, 0.0), 1.0) for value in rounded)
     return r, g, b, alpha
 
 
 def _line(info: str) -> int | None:
     """Line of an element, out of what MuJoCo says of it: "line 12"."""
     word = info.rpartition(" ")[2]
-    return int(word) if info.startswith("line ") and word.isdigit() else None
+    if info.startswith("line ") and word.isdigit():
+        return int(word)
+    return None

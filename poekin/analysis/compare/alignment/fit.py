@@ -43,7 +43,8 @@ def fit(
     """
     shape = starts.z.shape
     free = np.broadcast_to(free, shape)
-    shares = np.broadcast_to(np.where(pair.alike, used, 0.0), shape)
+    counted = np.where(pair.alike, used, 0.0)
+    shares = np.broadcast_to(counted, shape)
     everywhere = np.arange(len(starts))
     best = _linearised(pair, starts[everywhere], free, shares)
     damping = np.full(len(starts), 1e-6)
@@ -55,7 +56,8 @@ def fit(
         here = best[live]
         held = damping[live]
         steps = _step(here.r, here.J, held)
-        slope = -(here.r * applied(here.J, steps)).sum(1)
+        change = applied(here.J, steps)
+        slope = -(here.r * change).sum(1)
         tried = here.at.moved(steps)
         trial = _linearised(pair, tried, free[live], shares[live])
         least = 1e-12 * here.cost
@@ -116,9 +118,12 @@ def _linearised(
         # Behind the suspect joint every change further in front is itself turned about a's axis.
         behind = slice(k + 1, None)
         turn = se3.exp(screws[:, k] * at.z[:, k, None])
-        base[:, behind] @= se3.adjoint(turn)[:, None]
+        carried = base[:, behind] @ se3.adjoint(turn)[:, None]
+        base[:, behind] = carried
         in_front = screws[:, :k].swapaxes(1, 2)
-        columns[:, behind, :, :k] = base[:, behind] @ in_front[:, None]
+        columns[:, behind, :, :k] = carried @ in_front[:, None]
+    in_front = np.tri(pair.n, k=-1, dtype=bool)
+    moved = free[:, None] & in_front
     moved = free[:, None] & np.tri(pair.n, k=-1, dtype=bool)
     columns *= moved[:, :, None]
     J = np.concatenate([base, columns], axis=3)
@@ -127,4 +132,5 @@ def _linearised(
     residuals = b.residuals * used[..., None]
     r = residuals.reshape(shape)
     cost = (r * r).sum(1)
-    return Linearised(at, r, J.reshape(*shape, J.shape[-1]), cost)
+    jacobian = J.reshape(*shape, J.shape[-1])
+    return Linearised(at, r, jacobian, cost)

@@ -99,9 +99,10 @@ def agreeing(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis | None:
         starts = _other_zeros(pair)
         found += _simplest(pair, _all_zeros_free(pair, starts))
     found.sort(key=_cost)
-    unmoved = (r for r in found if not r.moved.any())
-    agree = (r for r in unmoved if poses_agree(pair, a, b, r))
-    return next(agree, None)
+    for reading in found:
+        if not reading.moved.any() and poses_agree(pair, a, b, reading):
+            return reading
+    return None
 
 
 def _rigid(
@@ -157,7 +158,8 @@ def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
     for r in in_place:
         if r.moved.any() and r.implicated.sum() < most:
             return r
-        if not r.moved.any() and r.changes.sum() < conventions:
+        no_axis = not r.moved.any()
+        if no_axis and r.changes.sum() < conventions:
             return r
     return first
 
@@ -189,11 +191,12 @@ def _other_links(pair: Sides, found: list[Hypothesis]) -> list[Hypothesis]:
     """The best readings of several moved axes, and that in which the tool stays, with another link in
     place of the last or the first axes.
     """
-    several = [r for r in found if r.moved.sum() > 1 and not r.link]
-    several.sort(key=_cost)
-    few = several[:MOST_LINKED] + make_hypotheses(pair, pair.tool_as_it_stands)
-    in_front = (with_front_link(pair, reading) for reading in few)
-    return with_link(pair, few) + [reading for reading in in_front if reading is not None]
+    several = [r for r in found if r.moved.sum() > 1]
+    unlinked = sorted((r for r in several if not r.link), key=_cost)
+    few = unlinked[:MOST_LINKED]
+    few += make_hypotheses(pair, pair.tool_as_it_stands)
+    in_front = [with_front_link(pair, reading) for reading in few]
+    return with_link(pair, few) + [r for r in in_front if r is not None]
 
 
 def _across_a_slide(pair: Sides, reading: Hypothesis) -> Hypothesis:
@@ -202,8 +205,10 @@ def _across_a_slide(pair: Sides, reading: Hypothesis) -> Hypothesis:
     """
     if not reading.frames or reading.moved.sum() != 1:
         return reading
-    (linked,) = with_link(pair, [reading]) or [with_front_link(pair, reading)]
-    return linked or reading
+    behind = with_link(pair, [reading])
+    if behind:
+        return behind[0]
+    return with_front_link(pair, reading) or reading
 
 
 def _conventions(pair: Sides) -> list[Hypothesis]:
@@ -222,7 +227,8 @@ def _conventions(pair: Sides) -> list[Hypothesis]:
     if pair.alike.all():
         suspects = pair.alike
     used = ~np.eye(pair.n, dtype=bool)[suspects]
-    found += _fitting(pair, tried.tiled(len(used)), used.repeat(len(tried), 0))
+    every_start = tried.tiled(len(used))
+    found += _fitting(pair, every_start, used.repeat(len(tried), 0))
     for k in np.flatnonzero(suspects):
         held = replace(pair, suspect_joint=int(k))
         readings = _fitting(held, tried, np.arange(pair.n) != k)
@@ -234,7 +240,8 @@ def _conventions(pair: Sides) -> list[Hypothesis]:
 def _fitting(pair: Sides, starts: Alignments, used: Marks) -> list[Hypothesis]:
     """Readings of starts fitted with their zero offsets free, of which the axes in `used` then agree."""
     trial = fit(pair, starts, _inner(pair), used)
-    lost = used & (pair.deviations(trial) > 1.0)
+    miss = pair.deviations(trial)
+    lost = used & (miss > 1.0)
     return _simplest(pair, trial[~lost.any(1)])
 
 

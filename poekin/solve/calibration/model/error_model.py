@@ -19,6 +19,7 @@ import numpy as np
 from ....errors import InputError
 from ....groups import se3
 from ....groups.arrays import Array
+from ....groups.vectors import applied
 from ....model.chain import Chain
 from ....model.checks import read_only
 from .last_result import LastResult
@@ -70,7 +71,8 @@ class ErrorModel:
         poses = list(accumulate(local, np.matmul))
         frames = np.reshape(poses, (-1, 4, 4))
         # (n, 6, 4): columns tilt, tilt, shift, shift
-        self._across = se3.adjoint(frames)[..., [0, 1, 3, 4]]
+        tilts_and_shifts = [0, 1, 3, 4]
+        self._across = se3.adjoint(frames)[..., tilts_and_shifts]
         # where each parameter stands in `Errors`, and the parts of these
         masks = [mask.ravel() for mask in self._free]
         self._places = np.flatnonzero(np.concatenate(masks))
@@ -98,13 +100,14 @@ class ErrorModel:
         """The moved screws and home pose as a chain of joint values x, without coupling."""
         if self._plain and not p.any():
             return self.nominal
-        return self._last_joints(p.tobytes(), lambda: self._moved(p))
+        key = p.tobytes()
+        return self._last_joints(key, lambda: self._moved(p))
 
     def _moved(self, p: Array) -> Chain:
         errors = self.errors(p)
         nominal = self.nominal
         moves = se3.adjoint(se3.exp(errors.screws))
-        A = (moves @ nominal.screws[..., None])[..., 0]
+        A = applied(moves, nominal.screws)
         M = nominal.home @ se3.exp(errors.home)
         pitches = nominal.pitches + errors.pitches
         if self._plain:
@@ -134,14 +137,19 @@ class ErrorModel:
         if errors.offsets.any():
             arm = arm.rezeroed(errors.offsets)
         C = self.nominal.coupling * (1.0 + errors.gains)
-        limits = self.nominal.limits
-        return arm.replace(coupling=C, limits=limits, joint_limits=self.nominal.joint_limits)
+        return arm.replace(
+            coupling=C,
+            limits=self.nominal.limits,
+            joint_limits=self.nominal.joint_limits,
+        )
 
     def screw_jacobian(self, p: Array) -> Array:
         """Derivatives (n, 6, k) of the screws in the base frame by the k tilts and shifts, which
         are the first parameters: dA = [d(e^eta) e^-eta, A].
         """
-        return -se3.ad(self.joints(p).screws) @ self._moves(self.errors(p).screws)
+        screws = self.joints(p).screws
+        moves = self._moves(self.errors(p).screws)
+        return -se3.ad(screws) @ moves
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""
@@ -188,7 +196,8 @@ class ErrorModel:
             parts.append(slides[..., free.pitches])
             if self._coupling is not None:
                 J = J @ self._coupling
-            gains = J[..., free.gains] * q[:, None, free.gains]
+            offset_by = q[:, None, free.gains]
+            gains = J[..., free.gains] * offset_by
             readings = [J[..., free.offsets], gains]
         if free.home.any():
             J_r = se3.right_jacobian(errors.home)
@@ -210,7 +219,8 @@ class ErrorModel:
         """Twists (n, 6, k) d(e^eta) e^-eta of the joints' screws per unit of each tilt and shift."""
         moves = se3.left_jacobian(eta) @ self._across
         own = np.eye(len(eta))[:, None, :, None]
-        return (moves[:, :, None] * own)[:, :, self._free.screws]
+        of_all = moves[:, :, None] * own
+        return of_all[:, :, self._free.screws]
 
 
 def _key(p: Array, q: Array) -> tuple[bytes, int, bytes]:

@@ -40,13 +40,17 @@ class Found:
 
     def kept(self, rows: np.ndarray) -> Found:
         """Without the solutions whose entry in `rows` (S,) is False."""
-        counts = np.bincount(self.q.owner[rows], minlength=len(self))
-        return replace(self, q=Ragged(self.q.rows[rows], counts), hits=self.hits[rows])
+        q = self.q
+        counts = np.bincount(q.owner[rows], minlength=len(self))
+        return replace(self, q=Ragged(q.rows[rows], counts), hits=self.hits[rows])
 
     def placed(self, numbers: np.ndarray, count: int) -> Found:
         """The solutions as those of `count` targets, of which these have the `numbers` (N,), in
         order; the others have none.
         """
+        self_motion = {}
+        for k, motion in self.self_motion.items():
+            self_motion[int(numbers[k])] = motion
         counts = _scattered(self.q.counts, numbers, count)
         return Found(
             q=Ragged(self.q.rows, counts),
@@ -55,7 +59,7 @@ class Found:
             restarts=_scattered(self.restarts, numbers, count),
             full=_scattered(self.full, numbers, count),
             singular=_scattered(self.singular, numbers, count),
-            self_motion={int(numbers[k]): motion for k, motion in self.self_motion.items()},
+            self_motion=self_motion,
         )
 
     def tally(self, sure: bool) -> Tally:
@@ -88,20 +92,22 @@ class Tally(NamedTuple):
 def joined(parts: Sequence[Found], dof: int) -> Found:
     """Solutions of the targets of all parts, one part after the other."""
     parts = [_nothing(dof), *parts]
-    before = np.cumsum([0, *map(len, parts)])
+    self_motion = {}
+    start = 0
+    for part in parts:
+        for k, motion in part.self_motion.items():
+            self_motion[int(k + start)] = motion
+        start += len(part)
+    rows = np.concatenate([part.q.rows for part in parts])
     counts = np.concatenate([part.q.counts for part in parts])
     return Found(
-        q=Ragged(np.concatenate([part.q.rows for part in parts]), counts),
+        q=Ragged(rows, counts),
         hits=np.concatenate([part.hits for part in parts]),
         ends=np.concatenate([part.ends for part in parts]),
         restarts=np.concatenate([part.restarts for part in parts]),
         full=np.concatenate([part.full for part in parts]),
         singular=np.concatenate([part.singular for part in parts]),
-        self_motion={
-            int(k + start): motion
-            for start, part in zip(before, parts, strict=False)
-            for k, motion in part.self_motion.items()
-        },
+        self_motion=self_motion,
     )
 
 
@@ -114,16 +120,18 @@ def replaced(found: Found, numbers: np.ndarray, others: Found) -> Found:
     new = others.placed(numbers, len(found))
     owner = np.concatenate([rest.q.owner, new.q.owner])
     order = np.argsort(owner, kind="stable")
-    rows = np.concatenate([rest.q.rows, new.q.rows])[order]
+    rows = np.concatenate([rest.q.rows, new.q.rows])
+    hits = np.concatenate([rest.hits, new.hits])
+    self_motion = {k: motion for k, motion in found.self_motion.items() if kept[k]}
+    self_motion.update(new.self_motion)
     return Found(
-        q=Ragged(rows, rest.q.counts + new.q.counts),
-        hits=np.concatenate([rest.hits, new.hits])[order],
+        q=Ragged(rows[order], rest.q.counts + new.q.counts),
+        hits=hits[order],
         ends=np.where(kept, found.ends, new.ends),
         restarts=np.where(kept, found.restarts, new.restarts),
         full=np.where(kept, found.full, new.full),
         singular=np.where(kept, found.singular, new.singular),
-        self_motion={k: motion for k, motion in found.self_motion.items() if kept[k]}
-        | dict(new.self_motion),
+        self_motion=self_motion,
     )
 
 
@@ -134,10 +142,12 @@ def reduce_parts(
     empty: float,
 ) -> Array:
     """function.reduce of the values (S, ...) of each part, along them; `empty` where it has none."""
-    whole = np.full((len(parts), *values.shape[1:]), empty)
+    shape = (len(parts), *values.shape[1:])
+    whole = np.full(shape, empty)
     some = np.flatnonzero(parts.counts)
     if len(some):
-        whole[some] = function.reduceat(values, parts.ends[some], axis=0)
+        starts = parts.ends[some]
+        whole[some] = function.reduceat(values, starts, axis=0)
     return whole
 
 
@@ -151,4 +161,5 @@ def _nothing(dof: int) -> Found:
     """No solutions of no targets."""
     none = np.zeros(0, int)
     no = np.zeros(0, bool)
-    return Found(Ragged(np.empty((0, dof)), none), np.empty(0), none, none, no, no)
+    q = Ragged(np.empty((0, dof)), none)
+    return Found(q, np.empty(0), none, none, no, no)
