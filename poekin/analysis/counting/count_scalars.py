@@ -58,7 +58,9 @@ def live_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Coun
     graph = Graph()
     numbers = itertools.count(1)
     # Inputs from 0 on are of angles.
-    poses = [tuple(graph.input(-next(numbers)) for _ in IDENTITY) for _ in chain.kinds]
+    poses = []
+    for _ in chain.kinds:
+        poses.append(tuple(graph.input(-next(numbers)) for _ in IDENTITY))
     J, T = _run(algorithm, chain, poses, with_pose)
     return _count(graph, Angles(graph), T, J)
 
@@ -77,9 +79,11 @@ def all_operations(
     rng = generator()
     C = chain.coupling.tolist()
     offsets = chain.offset.tolist()
-    coordinates = [graph.input(-k) for k, _ in enumerate(chain.q_names, 1)]
+    inputs = range(1, chain.dof + 1)
+    coordinates = [graph.input(-k) for k in inputs]
     poses = []
-    joints = zip(chain.kinds, *structure(chain), C, offsets, strict=True)
+    rotates, slides = structure(chain)
+    joints = zip(chain.kinds, rotates, slides, C, offsets, strict=True)
     for kind, r, s, row, c in joints:
         x = c
         for q, factor in zip(coordinates, row, strict=True):
@@ -121,7 +125,8 @@ def paul_link(motion: JointMotion, rng: np.random.Generator) -> Row:
     turn = motion.sine, motion.cosine
     if motion.kind == "prismatic":
         turn = _sine_cosine(theta)
-    return dh.link(*turn, d + motion.shift, a, *_sine_cosine(alpha))
+    twist = _sine_cosine(alpha)
+    return dh.link(*turn, d + motion.shift, a, *twist)
 
 
 def craig_link(motion: JointMotion, rng: np.random.Generator) -> Row:
@@ -130,7 +135,8 @@ def craig_link(motion: JointMotion, rng: np.random.Generator) -> Row:
     fixed = 0.0
     if motion.kind == "prismatic":
         fixed = theta
-    link = dh.link(0.0, 1.0, 0.0, a, *_sine_cosine(alpha))
+    twist = _sine_cosine(alpha)
+    link = dh.link(0.0, 1.0, 0.0, a, *twist)
     behind = turned_about_z(link, *_sine_cosine(fixed), d)
     return turned_about_z(behind, motion.sine, motion.cosine, motion.shift)
 
@@ -181,8 +187,8 @@ def generic(rng: np.random.Generator, *shape: int) -> Array:
 def generic_pose(rng: np.random.Generator) -> tuple[float, ...]:
     """A pose without any structure."""
     T = se3.exp(generic(rng, 6))
-    twelve = np.append(T[:3, :3], T[:3, 3])
-    return tuple(twelve.tolist())
+    R = T[:3, :3].ravel()
+    return (*R.tolist(), *T[:3, 3].tolist())
 
 
 def generic_screw(kind: str, rng: np.random.Generator) -> Row:
@@ -224,7 +230,8 @@ def _run(
     rng = generator()
     screws = [generic_screw(kind, rng) for kind in chain.kinds]
     tool = generic_pose(rng)
-    links = Links(len(poses), *structure(chain), screws, poses, tool)
+    rotates, slides = structure(chain)
+    links = Links(len(poses), rotates, slides, screws, poses, tool)
     J, finish = algorithm(links)
     if not with_pose:
         return J, ()

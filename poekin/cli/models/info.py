@@ -27,7 +27,9 @@ def command(file: File, tip: Tip = None, base: Base = None, json: Json = False) 
     """
     robot = model(file)
     if tip is None and base is None:
-        chains = [(robot.chain(base=b, tip=t), note) for b, t, note in routes(robot)]
+        chains = []
+        for start, end, note in routes(robot):
+            chains.append((robot.chain(base=start, tip=end), note))
         if json:
             print(as_json(_robot(robot, chains)))
         else:
@@ -49,17 +51,20 @@ def _show_robot(robot: Robot, chains: list[tuple[Chain, str]]) -> None:
         say(line)
     say("\nChains from root to leaf")
     heads = ["base", "tip", "joints", "coordinates", "reach (m)"]
-    rows = [[c.base, c.tip, len(c.joint_names), c.dof, number(c.reach)] for c, _ in chains]
-    if any(note for _, note in chains):
+    noted = any(note for _, note in chains)
+    if noted:
         heads.append("note")
-        for row, (_, note) in zip(rows, chains, strict=True):
-            row.append(note)
-    table(heads, rows, left=2)
+    rows = []
     # A screw seen from the root is the same in every chain that has its joint.
     seen: dict[tuple[str, object], tuple[object, ...]] = {}
-    for chain, _ in chains:
-        for joint, *row in _screw_rows(chain):
-            seen.setdefault((chain.base, joint), (joint, *row))
+    for chain, note in chains:
+        row = [chain.base, chain.tip, len(chain.joint_names), chain.dof, number(chain.reach)]
+        if noted:
+            row.append(note)
+        rows.append(row)
+        for screw in _screw_rows(chain):
+            seen.setdefault((chain.base, screw[0]), screw)
+    table(heads, rows, left=2)
     if seen:
         say("\nScrews (w; v) at home, seen from each chain's base (rad, m)")
         table(SCREWS, seen.values(), left=3)
@@ -81,28 +86,31 @@ def _show_chain(chain: Chain) -> None:
 
 def _tell_of_sums(chains: Iterable[Chain]) -> None:
     """A word on limits where a joint follows several coordinates."""
-    if any((np.count_nonzero(chain.coupling, axis=1) > 1).any() for chain in chains):
+    followed = (np.count_nonzero(chain.coupling, axis=1) for chain in chains)
+    if any((count > 1).any() for count in followed):
         say("Limits are those of each coordinate alone; solvers keep the joints' own, too")
 
 
 def _show_drives(joints: Sequence[Joint]) -> None:
     """Velocity and effort limits, where one is known."""
     moving = [joint for joint in joints if joint.kind != "fixed"]
-    rows = [(joint.name, joint.velocity, joint.effort) for joint in moving]
-    known = [row for row in rows if min(row[1:]) < math.inf]
+    known = [joint for joint in moving if min(joint.velocity, joint.effort) < math.inf]
     if known:
         say("\nLimits of velocity (rad/s or m/s) and effort (N m or N), inf where not known")
-        table(DRIVES, ((joint, *map(number, drive)) for joint, *drive in known), left=1)
+        rows = [(j.name, number(j.velocity), number(j.effort)) for j in known]
+        table(DRIVES, rows, left=1)
 
 
 def _screw_rows(chain: Chain) -> Iterator[tuple[object, ...]]:
     C = chain.coupling
     for i, joint in enumerate(chain.joint_names):
-        terms = [(float(C[i, k]), int(k)) for k in np.flatnonzero(C[i])]
+        row = C[i]
+        terms = [(float(row[k]), int(k)) for k in np.flatnonzero(row)]
         limits = np.zeros(2)
         if terms:
-            own = [k for _, k in terms if chain.q_names[k] == joint]
-            limits = chain.limits[own[0] if own else terms[0][1]]
+            followed = [k for _, k in terms]
+            own = [k for k in followed if chain.q_names[k] == joint]
+            limits = chain.limits[(own or followed)[0]]
         yield (
             joint,
             chain.kinds[i],
@@ -135,13 +143,18 @@ def tree(robot: Robot) -> Iterator[str]:
 
     def push(link: str, indent: str) -> None:
         below = children.get(link, [])
-        forks = [("├ ", "│ ")] * (len(below) - 1) + [("└ ", "  ")]
-        if len(below) < 2:
-            forks = [("", "")] * len(below)
-        todo.extend(
-            (j, indent + here, indent + on)
-            for j, (here, on) in reversed([*zip(below, forks, strict=True)])
-        )
+        pushed = []
+        for joint in below:
+            here = "├ "
+            on = "│ "
+            if joint is below[-1]:
+                here = "└ "
+                on = "  "
+            if len(below) < 2:
+                here = ""
+                on = ""
+            pushed.append((joint, indent + here, indent + on))
+        todo.extend(reversed(pushed))
 
     push(robot.root, "  ")
     while todo:

@@ -80,8 +80,8 @@ class IKProblem:
         self.given = fast.chain
         self.units = joint_units(fast, bool(settings.lock))
         self.fast = self.units.fast
-        self.domain: JointDomain = make_joint_domain(self.units, settings.lock, settings.limits)
-        self.task: Task = _task(settings, self.fast.chain, self.domain)
+        self.domain = make_joint_domain(self.units, settings.lock, settings.limits)
+        self.task = _task(settings, self.fast.chain, self.domain)
         free = int((~self.domain.locked).sum())
         self.underactuated = free < self.task.constrained_dof
         self.locked = self.domain.locked.astype(float)
@@ -95,7 +95,8 @@ class IKProblem:
         self._solve = ik_kernels.solve_many
         self._error_parts = ik_kernels.error_parts
         own = self.fast.chain.joint_limits
-        self.has_joint_limits = bool(settings.limits and np.isfinite(own).any())
+        limited = np.isfinite(own).any()
+        self.has_joint_limits = bool(settings.limits and limited)
         self._address = self.fast.hybrid_address
         self._tolerances = np.array([settings.tol_position, settings.tol_rotation])
         self._rows = _rows(settings.restarts, settings.iterations)
@@ -109,15 +110,16 @@ class IKProblem:
     def by_joints(self) -> JointUnits | None:
         """The arm in the values of its joints, where they have limits that the domain does not say."""
         chain = self.fast.chain
-        if self.has_joint_limits and has_sums(chain) and not self.domain.locked.any():
-            return in_joints(chain)
-        return None
+        if not self.has_joint_limits or self.domain.locked.any():
+            return None
+        return in_joints(chain) if has_sums(chain) else None
 
     def coordinates(self, u: Array) -> Array:
         """The user's coordinates q (..., m) of joint units u (..., m)."""
         if self.units.scale is None:
             return u
-        q = self.units.coordinates(u, bounds(self.given, self.settings.limits))
+        limits = bounds(self.given, self.settings.limits)
+        q = self.units.coordinates(u, limits)
         for name, value in self.settings.lock or ():  # to the last digit
             k = self.given.q_names.index(name)
             unknown = np.isnan(q).any(axis=-1)
@@ -130,13 +132,15 @@ class IKProblem:
         """
         errors = pose_errors(self.given, self.task, q, targets)
         within = errors <= self._tolerances
-        return errors, within[:, 0] & within[:, 1] & self.keeps_joints(self.units.of(q))
+        accepted = within[:, 0] & within[:, 1]
+        return errors, accepted & self.keeps_joints(self.units.of(q))
 
     def keeps_joints(self, u: Array) -> np.ndarray:
         """Whether joints are within their own limits (...), where the domain does not say them."""
         if not self.has_joint_limits:
             return np.array(True)
-        return np.asarray(~beyond_own_limits(self.fast.chain, u).any(axis=-1))
+        beyond = beyond_own_limits(self.fast.chain, u)
+        return np.asarray(~beyond.any(axis=-1))
 
     def contains(self, u: Array) -> np.ndarray:
         """Whether configurations (..., m) are within the limits (...), the joints' own too."""
@@ -145,7 +149,8 @@ class IKProblem:
     def error(self, T: Array, target: Array, J: Array) -> Array:
         """Error (6,), rotation first, between two poses; J loses what the task leaves free."""
         e = np.empty(6)
-        self._error_parts(self.task.code, self.task.axis, T, target, J, e)
+        task = self.task
+        self._error_parts(task.code, task.axis, T, target, J, e)
         return e
 
     def with_task(self, name: TaskName) -> IKProblem:
@@ -177,8 +182,9 @@ class IKProblem:
 
         domain = self.domain
         limits = np.ascontiguousarray(domain.limits)
-        after = (limits, self.locked, self.options, self._tolerances, domain.unbounded_periods)
-        return ik_kernels.solve_one, (self._address, self.given.kernel_table), after
+        before = (self._address, self.given.kernel_table)
+        asked = (limits, self.locked, self.options, self._tolerances)
+        return ik_kernels.solve_one, before, (*asked, domain.unbounded_periods)
 
     def solve(
         self,
@@ -193,12 +199,14 @@ class IKProblem:
         q, info = self._solved(targets, indices, q0, **options)
         checked = self.has_joint_limits and options.get("limits") is None
         for turn in range(1, AGAIN if checked else 1):
-            beyond = (info[:, codes.AT_STATE] == codes.SOLVED) & ~self.keeps_joints(q)
+            solved = info[:, codes.AT_STATE] == codes.SOLVED
+            beyond = solved & ~self.keeps_joints(q)
             if not beyond.any():
                 break
             other = indices[beyond] + turn * APART
             start = self.domain.anywhere(len(other))
-            q[beyond], info[beyond] = self._solved(targets[beyond], other, start, **options)
+            again = self._solved(targets[beyond], other, start, **options)
+            q[beyond], info[beyond] = again
         return q, info
 
     def _solved(
@@ -218,14 +226,16 @@ class IKProblem:
             options = options.copy()
             options[codes.RESTARTS] = restarts
             rows = _rows(restarts, self.settings.iterations)
-        q = np.empty((len(targets), self.fast.dof))
-        info = np.empty((len(targets), codes.INFO))
+        count = len(targets)
+        q = np.empty((count, self.fast.dof))
+        info = np.empty((count, codes.INFO))
         limits = self.domain.limits if limits is None else limits
         ranges = self.domain.ranges if ranges is None else ranges
 
         def run(targets: Array, q0: Array, indices: Array, q: Array, info: Array) -> None:
-            asked = (limits, ranges, self.locked, options, indices, self.settings.seed)
-            self._solve.call(self._address, targets, q0, *asked, q, info)
+            asked = (limits, ranges, self.locked, options, indices)
+            solved = (self.settings.seed, q, info)
+            self._solve.call(self._address, targets, q0, *asked, *solved)
 
         arrays = (targets, q0, indices, q, info)
         if len(targets) <= rows:

@@ -66,8 +66,10 @@ class JointDomain:
     def beside_middle(self) -> Array:
         """Start (m,) of `middle`."""
         low, high = self.ranges.T
+        middle = 0.5 * (low + high)
         side = np.where(np.arange(len(low)) % 2, -1.0, 1.0)
-        return self.held(0.5 * (low + high) + BESIDE_MIDDLE * side * (high - low))
+        beside = BESIDE_MIDDLE * side * (high - low)
+        return self.held(middle + beside)
 
     def held(self, q: Array) -> Array:
         """Configurations (..., m) with what is locked at its value."""
@@ -83,13 +85,15 @@ class JointDomain:
     @cached_property
     def unbounded_periods(self) -> Array:
         """Periods (m,) of what is neither limited nor locked, 0 for the others."""
-        free = ~self.locked & np.isinf(self.limits).all(axis=1)
+        unlimited = np.isinf(self.limits).all(axis=1)
+        free = ~self.locked & unlimited
         return np.where(free, self.periods, 0.0)
 
     def principal(self, q: Array) -> Array:
         """Configurations with each coordinate without limits within half a period of 0."""
         period = self.unbounded_periods
-        return q - period * np.rint(q / np.where(period > 0, period, 1.0))
+        divisor = np.where(period > 0, period, 1.0)
+        return q - period * np.rint(q / divisor)
 
     def wrapped(self, q: Array, near: Array) -> Array:
         """Configurations moved by whole periods to the nearest to `near` within the limits."""
@@ -98,9 +102,11 @@ class JointDomain:
         period = np.where(free, self.periods, 1.0)
         least = np.ceil((lower - q) / period)
         most = np.floor((upper - q) / period)
-        times = np.clip(np.round((near - q) / period), least, most)
+        times = np.round((near - q) / period)
+        times = np.clip(times, least, most)
         moved = q + np.where(free, period * times, 0.0)
-        return np.where((moved >= lower) & (moved <= upper), moved, q)
+        within = (moved >= lower) & (moved <= upper)
+        return np.where(within, moved, q)
 
 
 def make_joint_domain(units: JointUnits, lock: Any, limits: bool) -> JointDomain:
@@ -115,7 +121,8 @@ def make_joint_domain(units: JointUnits, lock: Any, limits: bool) -> JointDomain
         chain = chain.replace(limits=within)
     ranges = free_ranges(chain)
     limited = np.isfinite(within).any(axis=1)
-    ranges[limited] = np.stack(sampling_range(chain), axis=1)[limited]
+    drawn = np.stack(sampling_range(chain), axis=1)
+    ranges[limited] = drawn[limited]
     return JointDomain(within, ranges, locked, periods(chain))
 
 
@@ -126,12 +133,16 @@ def _left_by_joints(chain: Chain, limits: Array, locked: Array) -> Array:
     within = limits.copy()
     free = np.isnan(locked)
     ratios = chain.coupling * free
+    followed = np.count_nonzero(ratios, axis=1)
     at_rest = joint_values(chain, np.where(free, 0.0, locked))
+    left = chain.joint_limits - at_rest[:, None]
     for k in np.flatnonzero(free):
-        alone = (ratios[:, k] != 0) & (np.count_nonzero(ratios, axis=1) == 1)
-        ends = (chain.joint_limits - at_rest[:, None])[alone] / ratios[alone, k, None]
-        low = ends.min(axis=1).max(initial=limits[k, 0])
-        high = ends.max(axis=1).min(initial=limits[k, 1])
+        ratio = ratios[:, k]
+        alone = (ratio != 0) & (followed == 1)
+        ends = left[alone] / ratio[alone, None]
+        lower, upper = limits[k]
+        low = ends.min(axis=1).max(initial=lower)
+        high = ends.max(axis=1).min(initial=upper)
         if low <= high:  # else no configuration is within, which is found out by the joints
             within[k] = low, high
     return within
@@ -191,7 +202,8 @@ def for_targets(
     if given.shape == expected:  # to broadcast takes longer than a solution
         return given.reshape(count, chain.dof).copy()
     try:
-        return np.broadcast_to(given, expected).reshape(count, chain.dof).copy()
+        every = np.broadcast_to(given, expected)
+        return every.reshape(count, chain.dof).copy()
     except ValueError as error:
         raise ShapeError(
             f"{what}: shape {given.shape} does not fit the targets' {expected}"

@@ -26,7 +26,7 @@ from .ik_all_search import POSE, Rule, SearchedArm, accepted
 from .listed import list_clear
 from .solution_sets.evidence import Evidence, Sampling, SolverUsed, missing_probability
 from .solution_sets.found import reduce_parts
-from .solution_sets.listing import Listing, gathered
+from .solution_sets.listing import Listing, Part, gathered
 from .solution_sets.places import Box, Places, in_order, make_places
 from .solution_sets.self_motion import directions
 from .sources import Method, Solvers, find, solvers_for
@@ -268,12 +268,13 @@ def _solved(
 ) -> AllSolutions:
     fast = question.units.fast
     rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
-    rows = np.repeat(rows, question.n_swivel, axis=0) if question.n_swivel > 1 else rows
+    if question.n_swivel > 1:
+        rows = np.repeat(rows, question.n_swivel, axis=0)
     finite = np.asarray(np.isfinite(rows).all(axis=(1, 2)))
     numbers = np.flatnonzero(finite)
     stages = solvers_for(fast.chain, question.values[finite], question.free, method)
     arm = SearchedArm(fast, question.box, question.free, parallel)
-    parts: list[tuple[np.ndarray, Listing]] = []
+    parts: list[Part] = []
     left = np.arange(len(numbers))
     if question.is_plain and not all_revolutions:
         for stage in stages:
@@ -299,7 +300,7 @@ def _searched(
     solvers: Solvers | None,
     rule: Rule,
     all_revolutions: bool,
-) -> tuple[np.ndarray, Listing]:
+) -> Part:
     """The listing of the targets of these numbers, among all of them."""
     found = find(arm, rows[numbers], question.values[numbers], solvers, rule)
     found = found.placed(numbers, len(rows))
@@ -315,9 +316,9 @@ def _searched(
             owner=places.owner[reached],
             number=places.number[reached],
         )
-    return np.arange(len(rows)), Listing(
-        places, errors, found.tally(solvers is not None and solvers.is_exact)
-    )
+    exact = solvers is not None and solvers.is_exact
+    listing = Listing(places, errors, found.tally(exact))
+    return Part(np.arange(len(rows)), listing)
 
 
 def _evidence(

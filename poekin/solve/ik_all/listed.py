@@ -14,7 +14,7 @@ from .closed_form import ClosedForm
 from .elimination import Elimination
 from .ik_all_search import AIM, POSE, SearchedArm
 from .solution_sets.found import Tally
-from .solution_sets.listing import Listing
+from .solution_sets.listing import Listing, Part
 from .solution_sets.places import Places, whole_numbers
 from .sources import Solver, Solvers
 
@@ -30,12 +30,8 @@ _UNINTERRUPTED = 256  # targets between which an interrupt is seen
 
 
 def list_clear(
-    arm: SearchedArm,
-    T: Array,
-    values: Array,
-    solvers: Solvers,
-    numbers: np.ndarray,
-) -> tuple[list[tuple[np.ndarray, Listing]], np.ndarray]:
+    arm: SearchedArm, T: Array, values: Array, solvers: Solvers, numbers: np.ndarray
+) -> tuple[list[Part], np.ndarray]:
     """Solutions of those targets that are clear, in parts, with the numbers of each one's; and which
     targets are left (n,).
 
@@ -51,10 +47,11 @@ def list_clear(
         for first in range(0, len(own), _AT_ONCE):
             some = own[first : first + _AT_ONCE]
             which = numbers[some]
-            reduced = solvers.targets(T[which], values[which])
-            listing, clear = _list(arm, solver, T[which], reduced, values[which])
+            own_values = values[which]
+            reduced = solvers.targets(T[which], own_values)
+            listing, clear = _list(arm, solver, T[which], reduced, own_values)
             left[some] = ~clear
-            parts.append((which[clear], listing))
+            parts.append(Part(which[clear], listing))
     return parts, left
 
 
@@ -83,11 +80,11 @@ def _list(
     def run(T: Array, reduced: Array, values: Array, q: Array, errors: Array, info: Array) -> None:
         for k in range(0, len(T), _UNINTERRUPTED):
             some = slice(k, k + _UNINTERRUPTED)
-            branches = _with_locked(solver.branches(reduced[some]), values[some], arm.free)
-            kernel.listed.call(
-                fast.hybrid_address, branches, T[some], box, fixed, options, rule,
-                _flat(q[some]), _flat(errors[some]), info[some],
-            )  # fmt: skip
+            free = solver.branches(reduced[some])
+            branches = _with_locked(free, values[some], arm.free)
+            solutions = (_flat(q[some]), _flat(errors[some]), info[some])
+            asked = (T[some], box, fixed, options, rule)
+            kernel.listed.call(fast.hybrid_address, branches, *asked, *solutions)
 
     arrays = (np.ascontiguousarray(T), reduced, values, q, errors, info)
     if arm.parallel:
@@ -95,14 +92,16 @@ def _list(
     else:
         run(*arrays)
     clear = info[:, kernel.IS_CLEAR] != 0.0
-    return _listing(q, errors, info[:, : kernel.IS_CLEAR].astype(int), clear), clear
+    counts = info[:, : kernel.IS_CLEAR].astype(int)
+    return _listing(q, errors, counts, clear), clear
 
 
 def _with_locked(branches: Array, values: Array, free: np.ndarray) -> Array:
     """Branches (N, B, m' + 1) of the free coordinates and their margins, with those of all."""
     if free.all():
         return branches
-    whole = np.empty((*branches.shape[:2], len(free) + 1))
+    targets, count, _ = branches.shape
+    whole = np.empty((targets, count, len(free) + 1))
     whole[:, :, :-1] = values[:, None]
     whole[:, :, np.append(free, True)] = branches
     return whole
@@ -118,7 +117,9 @@ def _rule(solver: Solver) -> Array:
     if isinstance(solver, Elimination):
         return np.array([0.0, 0.0, _MOVED, 0.0])
     off = solver.margin_bound
-    return np.array([max(_CLEAR, off), max(_ABSENT, off), _MOVED + off, -solver.none_below])
+    solution = max(_CLEAR, off)
+    none = max(_ABSENT, off)
+    return np.array([solution, none, _MOVED + off, -solver.none_below])
 
 
 def _listing(q: Array, errors: Array, counts: np.ndarray, clear: np.ndarray) -> Listing:

@@ -57,7 +57,8 @@ def _by_shape(arm: Chain) -> int | None:
         return 2
     middle = np.mean(sampling_range(arm), axis=0)
     for k in reversed(range(arm.dof)):
-        only = np.where(np.arange(arm.dof) == k, middle, np.nan)
+        only = np.full(arm.dof, np.nan)
+        only[k] = middle[k]
         if axes(free_chain(arm, only)).has("Pieper"):
             return k
     return None
@@ -65,12 +66,14 @@ def _by_shape(arm: Chain) -> int | None:
 
 def _most_moving(arm: Chain) -> int:
     J = arm.jacobian(arm.random(0, _DRAWS), frame="hybrid")
-    return int(np.argmax(np.median(np.abs(_null_vectors(J)), axis=0)))
+    moves = np.abs(_null_vectors(J))
+    return int(np.argmax(np.median(moves, axis=0)))
 
 
 def _null_vectors(J: Array) -> Array:
     """Unit vectors (N, m) that Jacobians (N, 6, m) take nearest to zero."""
-    return np.linalg.svd(J)[2][:, -1]
+    _, _, rows = np.linalg.svd(J)
+    return rows[:, -1]
 
 
 def sample_values(chain: Chain, k: int, count: int, limits: bool) -> Array:
@@ -81,7 +84,8 @@ def sample_values(chain: Chain, k: int, count: int, limits: bool) -> Array:
     turn = period(chain, k)
     if turn and high - low >= turn:
         start = np.clip(-0.5 * turn, low, high - turn)
-        return start + turn / count * np.arange(count)
+        step = turn / count
+        return start + step * np.arange(count)
     if not np.isfinite(high - low):
         low, high = (ends[k] for ends in sampling_range(chain))
     if count == 1:
@@ -103,10 +107,11 @@ def curves(chain: Chain, q: Array, sample: np.ndarray, redundant: str) -> list[A
         here = np.flatnonzero(sample == number)
         there = np.flatnonzero(sample == number + 1)
         if len(there):
-            i, j = _links(q[here], q[there], tangent[here], tangent[there], k, turn)
+            tangents = (tangent[here], tangent[there])
+            i, j = _links(q[here], q[there], *tangents, k, turn)
             following[here[i]] = there[j]
     first = np.setdiff1d(np.arange(len(q)), following)
-    found = [q[_chained(int(row), following)] for row in first]
+    found = [q[_chained(row, following)] for row in first.tolist()]
     return sorted(found, key=len, reverse=True)
 
 
@@ -130,11 +135,15 @@ def _links(
     nearest to the step which the trapezoidal rule foretells, q_b - q_a = h (q_a' + q_b') / 2.
     """
     step = b[None] - a[:, None]
-    step = step - turn * np.round(step / np.where(turn > 0, turn, np.inf))
-    expected = 0.5 * step[..., k : k + 1] * (tangent_a[:, None] + tangent_b[None])
+    period = np.where(turn > 0, turn, np.inf)
+    step = step - turn * np.round(step / period)
+    tangents = tangent_a[:, None] + tangent_b[None]
+    expected = 0.5 * step[..., k : k + 1] * tangents
     off = np.abs(step - expected).max(axis=-1)
-    off = np.where(off <= _CONTINUES * np.abs(step).max(axis=-1), off, np.inf)
+    size = np.abs(step).max(axis=-1)
+    off = np.where(off <= _CONTINUES * size, off, np.inf)
     nearest = off.argmin(axis=1)
     i = np.arange(len(a))
-    mutual = (off.argmin(axis=0)[nearest] == i) & np.isfinite(off[i, nearest])
+    best_of_nearest = off.argmin(axis=0)[nearest]
+    mutual = (best_of_nearest == i) & np.isfinite(off[i, nearest])
     return i[mutual], nearest[mutual]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ....groups import se3
 from ....groups.arrays import Array
-from ....groups.blocks import angular_part, linear_part, rotation_part, translation_part
+from ....groups.blocks import angular_part, directions, linear_part, rotation_part, translation_part
 from ....groups.vectors import dots
 from ...axis_lines import Marks, cross, place
 from .alignments import Alignments, Rows
@@ -83,12 +83,12 @@ def pair_poses(
         if one is None or other is None:
             continue
         for s, t in product((1.0, -1.0), repeat=2):
-            if abs(s * t * other.cosine - one.cosine) < 2 * PARALLEL:
+            # Axes taken s and t times their way: z turns with the one, a common normal with both.
+            both = s * t
+            if abs(both * other.cosine - one.cosine) < 2 * PARALLEL:
                 found.append((i, j))
                 ours.append(one.T)
-                # Axes taken s and t times their way: z turns with the one, a common normal with
-                # both.
-                x = 1.0 if other.parallel else s * t
+                x = 1.0 if other.parallel else both
                 theirs.append(other.T * [x, s * x, s, 1.0])
     numbers = np.array(found, np.intp).reshape(-1, 2)
     T_a = np.array(ours).reshape(-1, 4, 4)
@@ -128,10 +128,12 @@ def turns(screw: Array, axis: Array, target: Array) -> Array:
     else:
         p = place(screw)
         z, size = _angle(w, line.way, goal.way)
-        about, radius = _angle(w, line.place - p, goal.place - p)
+        lever = line.place - p
+        about, radius = _angle(w, lever, goal.place - p)
         turned = size > PARALLEL**2
         beside = np.where(placed & (radius >= 1e-8), about, 0.0)
-        opposite = np.where(z > 0, z - np.pi, z + np.pi)
+        half_back = np.where(z > 0, -np.pi, np.pi)
+        opposite = z + half_back
         first = np.where(turned, z, beside)
         second = np.where(turned, opposite, np.nan)
     return np.concatenate([first, second], axis=-1)
@@ -295,10 +297,8 @@ def _frame(lines: Lines, i: int, j: int) -> _Frame | None:
 
 
 def _line(axis: Array) -> _Line:
-    w = axis[..., :3]
-    placed = np.asarray(w.any(-1, keepdims=True))
-    way = np.where(placed, w, axis[..., 3:])
-    return _Line(way, place(axis), placed)
+    placed = angular_part(axis).any(-1, keepdims=True)
+    return _Line(directions(axis), place(axis), np.asarray(placed))
 
 
 def _angle(

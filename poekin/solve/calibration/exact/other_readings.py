@@ -37,14 +37,16 @@ def aligned(chain: Chain, q: Array, poses: Poses) -> Aligned:
 
     Source: hand-eye calibration, T = X^-1 f(q) Z.
     """
-    if not far(_miss(chain.fk(q), poses.T), chain.reach):
+    as_given = _miss(chain.fk(q), poses.T)
+    if not far(as_given, chain.reach):
         return Aligned(chain)
     frames = _frames(chain, q, poses)
     if frames is None:
         return Aligned(chain)
     X, Z = frames
     moved = chain.rebased(se3.inverse(X)).retooled(Z)
-    if far(_miss(moved.fk(q), poses.T), chain.reach):
+    miss = _miss(moved.fk(q), poses.T)
+    if far(miss, chain.reach):
         return Aligned(chain)
     return Aligned(
         moved,
@@ -56,11 +58,13 @@ def aligned(chain: Chain, q: Array, poses: Poses) -> Aligned:
 def hint(chain: Chain, q: Array, poses: Poses) -> str:
     """End of a message: the reading of the pairs that explains them much better, "" for none."""
     as_given = _missed(chain, q, poses)
-    best = min(
-        ((_missed(chain, other, poses), words) for words, other in _readings(chain, q)),
-        default=(np.inf, ""),
-    )
-    length, words = best
+    length = np.inf
+    words = ""
+    for other in _readings(chain, q):
+        missed = _missed(chain, other.q, poses)
+        if missed < length:
+            length = missed
+            words = other.words
     if not length * _BETTER < as_given:
         return ""
     return f"; with {words}, the nominal arm is off by {1e3 * length:.3g} mm only (median)"
@@ -74,20 +78,25 @@ def slight_coupling(chain: Chain, q: Array, fit: Propagation) -> str:
     parameters have taken up their part.
     """
     r = (fit.errors / fit.deviations).ravel()
-    moved = fit.jacobian[:, :, :, None] * q[:, None, None, :]
+    moved = fit.jacobian[..., None] * q[:, None, None, :]
     columns = moved.reshape(len(q) * 6, -1)
     gain = fit.gain.reshape(len(fit.gain), -1)
-    columns = columns - fit.design.reshape(len(columns), -1) @ (gain @ columns)
-    columns /= np.tile(fit.deviations, len(q))[:, None]
+    design = fit.design.reshape(len(columns), -1)
+    columns = columns - design @ (gain @ columns)
+    deviations = np.tile(fit.deviations, len(q))
+    columns /= deviations[:, None]
     squares = np.sum(columns**2, axis=0)
     products = r @ columns
-    gains = products**2 / np.maximum(squares, np.finfo(float).tiny)
+    positive = np.maximum(squares, np.finfo(float).tiny)
+    gains = products**2 / positive
     best = int(np.argmax(gains))
-    if not 1.0 - gains[best] / (r @ r) < 1.0 / _BETTER**2:
+    left = 1.0 - gains[best] / (r @ r)
+    if not left < 1.0 / _BETTER**2:
         return ""
     j, i = divmod(best, chain.dof)
     ratio = -products[best] / squares[best]
-    joint, reading = (escape_unprintable(chain.q_names[k], 40) for k in (j, i))
+    joint = escape_unprintable(chain.q_names[j], 40)
+    reading = escape_unprintable(chain.q_names[i], 40)
     if i == j:
         return f"; most of it is as if {joint} went {1.0 + ratio:.9g} times its reading"
     sign = "-" if ratio < 0 else "+"
@@ -102,7 +111,8 @@ def odd_pairs(found: Calibration, count: int) -> str:
     odd = np.flatnonzero(size > _ODD * np.median(size))
     if not 0 < len(odd) <= count // 4:
         return ""
-    rows = ", ".join(map(str, odd[:MOST].tolist()))
+    named = odd[:MOST].tolist()
+    rows = ", ".join(map(str, named))
     return f"; pairs {rows} stand out (rows of q, from 0), the others fit better without them"
 
 
@@ -112,13 +122,21 @@ def _missed(chain: Chain, q: Array, poses: Poses) -> float:
     if frames is None:
         return np.inf
     X, Z = frames
-    miss = _miss(se3.inverse(X) @ chain.fk(q) @ Z, poses.T)
+    in_frames = se3.inverse(X) @ chain.fk(q) @ Z
+    miss = _miss(in_frames, poses.T)
     if far(miss, chain.reach):
         return np.inf
     return miss.length
 
 
-def _readings(chain: Chain, q: Array) -> Iterator[tuple[str, Array]]:
+class _Reading(NamedTuple):
+    """Joint readings (N, m) taken otherwise, and that in words."""
+
+    q: Array
+    words: str
+
+
+def _readings(chain: Chain, q: Array) -> Iterator[_Reading]:
     """The joint readings taken otherwise, and that in words: they follow one another, are reversed,
     or stand in another order.
     """
@@ -129,15 +147,16 @@ def _readings(chain: Chain, q: Array) -> Iterator[tuple[str, Array]]:
             other = q.copy()
             other[:, i] += sign * q[:, j]
             words = f"{names[i]} = {names[i]} {word} {names[j]}"
-            yield f"the readings coupled, {words!r}", other
+            yield _Reading(other, f"the readings coupled, {words!r}")
     for i in range(chain.dof):
         other = q.copy()
         other[:, i] *= -1.0
-        yield f"{names[i]} reversed", other
+        yield _Reading(other, f"{names[i]} reversed")
     for j, i in itertools.combinations(range(chain.dof), 2):
         other = q.copy()
-        other[:, [i, j]] = q[:, [j, i]]
-        yield f"{names[j]} and {names[i]} exchanged", other
+        other[:, i] = q[:, j]
+        other[:, j] = q[:, i]
+        yield _Reading(other, f"{names[j]} and {names[i]} exchanged")
 
 
 def _frames(chain: Chain, q: Array, poses: Poses) -> tuple[Array, Array] | None:
@@ -150,6 +169,7 @@ def _frames(chain: Chain, q: Array, poses: Poses) -> tuple[Array, Array] | None:
 
 def _miss(T: Array, measured: Array) -> Size:
     """Median distance and angle between poses (N, 4, 4)."""
-    errors = pose_errors(T, measured).reshape(-1, 2, 3)
-    angle, length = np.median(norms(errors), axis=0).tolist()
+    errors = pose_errors(T, measured)
+    sizes = norms(errors.reshape(-1, 2, 3))
+    angle, length = np.median(sizes, axis=0).tolist()
     return Size(length, angle)

@@ -29,7 +29,8 @@ class Convention(NamedTuple):
         if format is None:
             return cls(None, mm, deg)
         order = "wxyz" if format in ("quat", "7") else None
-        return cls(pose_layout(format, order, mm=mm, deg=deg, joints=True), mm, deg)
+        pose = pose_layout(format, order, mm=mm, deg=deg, joints=True)
+        return cls(pose, mm, deg)
 
     @property
     def length(self) -> LengthUnit:
@@ -39,7 +40,8 @@ class Convention(NamedTuple):
     def layouts(self) -> tuple[tuple[ColumnLayout, ...], ...]:
         """The layouts that a file may have, in the order in which they are tried."""
         if self.pose is None:
-            return (of_poses(tuple(pose._replace(length=self.length) for pose in POSES)),)
+            poses = [pose._replace(length=self.length) for pose in POSES]
+            return (of_poses(tuple(poses)),)
         own, *others = of_poses((self.pose,))
         return (own,), tuple(others)
 
@@ -96,10 +98,12 @@ def _headings(
 ) -> list[Heading]:
     """Names and units of a header's words, of those that a file may have."""
     measured = [name for layout in layouts for name in layout.columns]
-    known = tuple(dict.fromkeys((*chain.q_names, *numbered(chain.dof), *measured)))
-    passed_over = set(ignore)
-    pairs = zip(words, csv_header.headings(words, known), strict=True)
-    return [Heading(word, "") if word in passed_over else heading for word, heading in pairs]
+    known = dict.fromkeys((*chain.q_names, *numbered(chain.dof), *measured))
+    headings = list(csv_header.headings(words, tuple(known)))
+    for k, word in enumerate(words):
+        if word in ignore:
+            headings[k] = Heading(word, "")
+    return headings
 
 
 def _header(
@@ -111,21 +115,25 @@ def _header(
     here: str,
 ) -> Header:
     said = said_units(convention.mm, convention.deg)
-    units = tuple(convention.joint_unit(chain, k) for k in range(chain.dof))
-    of_values: tuple[str, ...] = (convention.length,) * len(layout.columns)
+    coordinates = range(chain.dof)
+    units = tuple(convention.joint_unit(chain, k) for k in coordinates)
+    of_values = (convention.length,) * len(layout.columns)
     if layout.pose is not None:
         of_values = layout.pose.units
     joints = Columns(names, "coordinate", units, said)
     measured = Columns(layout.columns, "column", of_values, said)
     found = list(csv_header.conversions(headings, joints, here).items())
     values = csv_header.conversions(headings, measured, here)
-    found += [(chain.dof + k, convert) for k, convert in values.items()]
+    for k, convert in values.items():
+        found.append((chain.dof + k, convert))
     # then to rad and m; poses are made of numbers in their own units
     taken = units if layout.pose is not None else units + of_values
     to_si = {"mm": "m", "deg": "rad"}
     for k, unit in enumerate(taken):
         if unit in to_si:
-            found.append((k, csv_header.CONVERSIONS[unit, to_si[unit]]))
+            conversion = csv_header.CONVERSIONS[unit, to_si[unit]]
+            found.append((k, conversion))
     every = (*names, *layout.columns)
     places = {heading.name: i for i, heading in enumerate(headings)}
-    return Header(every, [places[name] for name in every], layout, found)
+    indices = [places[name] for name in every]
+    return Header(every, indices, layout, found)

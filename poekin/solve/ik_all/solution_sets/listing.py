@@ -22,43 +22,50 @@ class Listing(NamedTuple):
     tally: Tally
 
 
-def gathered(parts: Sequence[tuple[np.ndarray, Listing]], count: int) -> Listing:
+class Part(NamedTuple):
+    """The numbers (N,) of some targets, and their listing."""
+
+    numbers: np.ndarray
+    listing: Listing
+
+
+def gathered(parts: Sequence[Part], count: int) -> Listing:
     """The listing of `count` targets, of parts that each have the numbers of theirs; targets of no
     part have no solutions.
     """
-    if len(parts) == 1 and len(parts[0][0]) == count:
-        return parts[0][1]
-    owner = np.concatenate([numbers[one.places.owner] for numbers, one in parts])
+    if len(parts) == 1 and len(parts[0].numbers) == count:
+        return parts[0].listing
+    numbers = [part.numbers for part in parts]
+    listings = [part.listing for part in parts]
+    found = [one.places for one in listings]
+    tallies = [one.tally for one in listings]
+    owner = np.concatenate([part.numbers[part.listing.places.owner] for part in parts])
     # a slice takes no copy of what is in order, as of one part
     order: Any = slice(None)
     if (owner[1:] < owner[:-1]).any():
         order = np.argsort(owner, kind="stable")
-    places = Places(
-        q=np.concatenate([one.places.q for _, one in parts])[order],
-        owner=owner[order],
-        number=np.concatenate([one.places.number for _, one in parts])[order],
-        within=_scattered([(numbers, one.places.within) for numbers, one in parts], count),
-    )
-    tallies = [(numbers, one.tally) for numbers, one in parts]
-    tally = Tally(
-        found=_scattered([(numbers, one.found) for numbers, one in tallies], count),
-        least_hits=_scattered([(numbers, one.least_hits) for numbers, one in tallies], count),
-        ends=_scattered([(numbers, one.ends) for numbers, one in tallies], count),
-        restarts=_scattered([(numbers, one.restarts) for numbers, one in tallies], count),
-        full=_scattered([(numbers, one.full) for numbers, one in tallies], count),
-        sure=_scattered([(numbers, one.sure) for numbers, one in tallies], count),
-        self_motion={
-            int(numbers[k]): motion
-            for numbers, one in tallies
-            for k, motion in one.self_motion.items()
-        },
-    )
-    errors = np.concatenate([one.errors for _, one in parts])[order]
-    return Listing(places, errors, tally)
+    q = np.concatenate([one.q for one in found])
+    number = np.concatenate([one.number for one in found])
+    errors = np.concatenate([one.errors for one in listings])
+    self_motion = {}
+    for own, tally in zip(numbers, tallies, strict=True):
+        for k, motion in tally.self_motion.items():
+            self_motion[int(own[k])] = motion
+
+    def scattered(name: str, records: Sequence[Places | Tally]) -> np.ndarray:
+        values = [getattr(record, name) for record in records]
+        return _scattered(numbers, values, count)
+
+    within = scattered("within", found)
+    places = Places(q[order], owner[order], number[order], within)
+    of_targets = {name: scattered(name, tallies) for name in Tally._fields[:-1]}
+    tally = Tally(**of_targets, self_motion=self_motion)
+    return Listing(places, errors[order], tally)
 
 
-def _scattered(parts: Sequence[tuple[np.ndarray, np.ndarray]], count: int) -> np.ndarray:
-    whole = np.zeros(count, parts[0][1].dtype)
-    for numbers, values in parts:
-        whole[numbers] = values
+def _scattered(parts: Sequence[np.ndarray], values: Sequence[np.ndarray], count: int) -> np.ndarray:
+    """An array of `count` entries, those of each part's numbers from its values."""
+    whole = np.zeros(count, values[0].dtype)
+    for numbers, own in zip(parts, values, strict=True):
+        whole[numbers] = own
     return whole

@@ -91,19 +91,23 @@ def make_places(
     if all_revolutions or by_joints:
         _check_number(owner, number)
         row, turns = turns_between(first, last)
-    q = np.clip(Q[row] + box.periods * turns, *box.limits.T) + 0.0
+    moved = Q[row] + box.periods * turns
+    q = np.clip(moved, *box.limits.T) + 0.0
     if by_joints:
-        allowed = np.flatnonzero(~beyond_own_limits(chain, q).any(axis=1))
+        beyond = beyond_own_limits(chain, q)
+        allowed = np.flatnonzero(~beyond.any(axis=1))
         number = np.bincount(row[allowed], minlength=len(Q))
         if not all_revolutions:
-            allowed = allowed[np.unique(row[allowed], return_index=True)[1]]
+            _, first_of_row = np.unique(row[allowed], return_index=True)
+            allowed = allowed[first_of_row]
         q = q[allowed]
         row = row[allowed]
     listed = np.bincount(row, minlength=len(Q)) > 0
     within = np.bincount(owner[listed], minlength=len(found))
     if all_revolutions:
         number = np.ones(len(Q))
-    return Places(q, owner[row], whole_numbers(number[row]), within)
+    numbers = whole_numbers(number[row])
+    return Places(q, owner[row], numbers, within)
 
 
 def turns_between(first: Array, last: Array) -> tuple[np.ndarray, Array]:
@@ -113,13 +117,15 @@ def turns_between(first: Array, last: Array) -> tuple[np.ndarray, Array]:
     choices = (last - first + 1).astype(np.int64)
     number = choices.prod(axis=1)
     row = np.repeat(np.arange(len(first)), number)
-    index = np.arange(len(row)) - np.repeat(np.cumsum(number) - number, number)
+    before = np.cumsum(number) - number
+    index = np.arange(len(row)) - before[row]
     turns = np.empty((len(row), first.shape[1]))
     for k in reversed(range(first.shape[1])):  # the digits of a number, the last one first
         choice = choices[row, k]
         turns[:, k] = first[row, k] + index % choice
         index = index // choice
-    order = np.lexsort(((turns * turns).sum(axis=1), row))
+    lengths = (turns * turns).sum(axis=1)
+    order = np.lexsort((lengths, row))
     return row, turns[order]
 
 
@@ -139,7 +145,8 @@ def _order(q: Array, owner: np.ndarray) -> np.ndarray:
     """Order of solutions (S, m) that stand target by target."""
     keys = np.round(q, _DIGITS)
     targets = int(owner.max(initial=-1)) + 1
-    parts = Ragged(np.arange(len(q)), np.bincount(owner, minlength=targets))
+    counts = np.bincount(owner, minlength=targets)
+    parts = Ragged(np.arange(len(q)), counts)
     most = int(parts.counts.max(initial=0))
     if len(q) < _FEW or targets * most > _WASTE * len(q):
         return np.lexsort((*keys.T[::-1], owner))
@@ -148,12 +155,14 @@ def _order(q: Array, owner: np.ndarray) -> np.ndarray:
     there = order >= 0
     for key in keys.T[::-1]:
         values = np.where(order >= 0, key[order], np.inf)
-        order = np.take_along_axis(order, np.argsort(values, axis=1, kind="stable"), axis=1)
+        by_key = np.argsort(values, axis=1, kind="stable")
+        order = np.take_along_axis(order, by_key, axis=1)
     return order[there]
 
 
 def _check_number(owner: np.ndarray, number: Array) -> None:
-    most = np.bincount(owner, number, minlength=1).max(initial=0)
+    of_targets = np.bincount(owner, number, minlength=1)
+    most = of_targets.max(initial=0)
     if most > MOST:
         raise InputError(
             f"all_revolutions: {most:.0f} places for one target, more than {MOST}; "

@@ -18,15 +18,20 @@ def sample(
     At a time of a row ddq is that of the step after it.
     """
     last = len(times) - 2
-    k = np.clip(np.searchsorted(times, t, side="right") - 1, 0, last)
+    k = np.searchsorted(times, t, side="right") - 1
+    k = np.clip(k, 0, last)
+    before = q[k]
+    after = q[k + 1]
+    rate_before = dq[k]
+    rate_after = dq[k + 1]
     h = (times[k + 1] - times[k])[..., None]
     u = (t - times[k])[..., None] / h
-    mean = (q[k + 1] - q[k]) / h
-    bow = 3 * mean - 2 * dq[k] - dq[k + 1]
-    skew = dq[k] + dq[k + 1] - 2 * mean
-    x = q[k] + h * u * (dq[k] + u * (bow + u * skew))
-    x = np.where(u == 1, q[k + 1], x)
-    rate = dq[k] + u * (2 * bow + 3 * u * skew)
+    mean = (after - before) / h
+    bow = 3 * mean - 2 * rate_before - rate_after
+    skew = rate_before + rate_after - 2 * mean
+    x = before + h * u * (rate_before + u * (bow + u * skew))
+    x = np.where(u == 1, after, x)
+    rate = rate_before + u * (2 * bow + 3 * u * skew)
     return x, rate, (2 * bow + 6 * u * skew) / h
 
 
@@ -43,7 +48,9 @@ def peaks(times: Array, q: Array, dq: Array) -> tuple[Array, Array]:
     end = (4 * after + 2 * before - 6 * mean) / h
     turns = start * end < 0
     change = np.where(turns, start - end, 1.0)
-    between = np.where(turns, before + 0.5 * h * start * start / change, 0.0)
+    extreme = before + 0.5 * h * start * start / change
+    between = np.where(turns, extreme, 0.0)
     rate = np.maximum(np.abs(before), np.abs(after))
     rate = np.maximum(rate, np.abs(between))
-    return rate, np.maximum(np.abs(start), np.abs(end))
+    acceleration = np.maximum(np.abs(start), np.abs(end))
+    return rate, acceleration
