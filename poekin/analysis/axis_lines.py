@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..groups.arrays import Array
-from ..groups.blocks import angular_part, linear_part
-from ..groups.vectors import applied, norm
+from ..groups.vectors import angular_part, applied, linear_part, norm
 from ..model.chain import Chain
 from ..model.readings.coupled import own_limits
 

@@ -10,7 +10,7 @@ from itertools import combinations
 from typing import Literal
 
 from ..groups.arrays import Array
-from ..groups.blocks import angular_part
+from ..groups.vectors import angular_part
 from ..model.chain import Chain
 from ..results import Result
 from .amounts import amount

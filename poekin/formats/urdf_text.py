@@ -11,7 +11,7 @@ from typing import overload
 import numpy as np
 
 from ..errors import InputError, join_names, quote, safe_repr
-from ..groups.blocks import rotation_part, translation_part
+from ..groups.vectors import rotation_part, translation_part
 from ..model.chain import Chain
 from ..model.joint import Joint
 from ..model.kinematics.arm import Arm, chain_of

@@ -14,8 +14,7 @@ from ..engine.kernels import chain_kernels
 from ..errors import ShapeError, quote
 from ..groups import se3
 from ..groups.arrays import Array
-from ..groups.blocks import translation_part
-from ..groups.vectors import norms
+from ..groups.vectors import norms, translation_part
 from .checks import (
     bounds,
     coupling_matrix,

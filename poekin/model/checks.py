@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ..errors import InputError, PoseError, ShapeError, join_names, quote, safe_repr
 from ..formulas.lie import defect
 from ..groups.arrays import TOLERANCE, Array, numbers, poses, shaped
-from ..groups.blocks import rotation_part
+from ..groups.vectors import rotation_part
 
 LONGEST = 1e100
 """The largest length [m] that is accepted: beyond it, squares of lengths are no numbers any more.

@@ -17,8 +17,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, ScrewError
 from ..groups.arrays import Array, element_name, shaped
-from ..groups.blocks import angular_part, linear_part
-from ..groups.vectors import norm
+from ..groups.vectors import angular_part, linear_part, norm
 from .checks import finite
 from .screw_rows.remedies import ROUNDED, UNIT
 from .screw_rows.unit_screws import pitch_of, unit_screws, with_pitches

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..groups.arrays import Array
-from ..groups.blocks import rotation_part, translation_part
-from ..groups.vectors import norm, normalised
+from ..groups.vectors import norm, normalised, rotation_part, translation_part
 from ..model.geometry.local import turned_least
 
 SHARP = 0.5

@@ -13,8 +13,7 @@ import numpy as np
 
 from ...groups import se3, so3
 from ...groups.arrays import Array
-from ...groups.blocks import linear_part
-from ...groups.vectors import norm
+from ...groups.vectors import linear_part, norm
 from ...model.chain import Chain
 from ..axis_lines import Tolerances, sine, wrapped
 from .alignment.lines import Lines, lines

@@ -8,8 +8,7 @@ import numpy as np
 
 from ...groups import so3
 from ...groups.arrays import Array
-from ...groups.blocks import rotation_part, translation_part
-from ...groups.vectors import norms
+from ...groups.vectors import norms, rotation_part, translation_part
 from ...model.chain import Chain
 from ...model.sampling import sampling_range
 from ..axis_lines import Tolerances

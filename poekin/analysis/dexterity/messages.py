@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import quote
 from ...groups.arrays import Array
-from ...groups.blocks import angular_part, linear_part
+from ...groups.vectors import angular_part, linear_part
 
 
 def motion_words(V: Array) -> str:

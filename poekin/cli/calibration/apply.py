@@ -12,8 +12,7 @@ from typer import Argument, Option
 from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import own_urdf
 from ...groups import se3, so3
-from ...groups.blocks import rotation_part, translation_part
-from ...groups.vectors import norm
+from ...groups.vectors import norm, rotation_part, translation_part
 from ...model.joint import Joint
 from ...model.robot import Robot
 from ...solve.calibration.apply import apply

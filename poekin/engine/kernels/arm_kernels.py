@@ -26,13 +26,15 @@ _INT = ir.IntType(64)
 
 
 def _array(context, builder, signature, values, i):
-    return context.make_array(signature.args[i])(context, builder, values[i])
+    make = context.make_array(signature.args[i])
+    return make(context, builder, values[i])
 
 
 def _width(context, builder, signature, values, i):
     """The length of an array's last axis."""
     shape = _array(context, builder, signature, values, i).shape
-    return cgutils.unpack_tuple(builder, shape, signature.args[i].ndim)[-1]
+    axes = signature.args[i].ndim
+    return cgutils.unpack_tuple(builder, shape, axes)[-1]
 
 
 @intrinsic
@@ -43,16 +45,14 @@ def _angles(typing_context, code, q, row, sines, stride, lane):
 
     def generate(context, builder, signature, values):
         function = builder.inttoptr(values[0], ANGLES.as_pointer())
-        q, sines = (_array(context, builder, signature, values, i).data for i in (1, 3))
-        start = builder.mul(values[2], _width(context, builder, signature, values, 1))
-        builder.call(
-            function,
-            [
-                builder.gep(q, [start]),
-                builder.gep(sines, [values[5]]),
-                values[4],
-            ],
-        )
+        arguments = (context, builder, signature, values)
+        q = _array(*arguments, 1).data
+        sines = _array(*arguments, 3).data
+        _, _, row, _, stride, lane = values
+        start = builder.mul(row, _width(*arguments, 1))
+        row_of_q = builder.gep(q, [start])
+        first = builder.gep(sines, [lane])
+        builder.call(function, [row_of_q, first, stride])
         return context.get_dummy_value()
 
     return types.void(code, q, row, sines, stride, lane), generate
@@ -66,17 +66,19 @@ def _run(typing_context, code, sines, cosines, stride, lane, q, T, J, row):
 
     def generate(context, builder, signature, values):
         function = builder.inttoptr(values[0], SIGNATURE.as_pointer())
-        sines, cosines, q, T, J = (
-            _array(context, builder, signature, values, i).data for i in (1, 2, 5, 6, 7)
-        )
-        width, columns = (_width(context, builder, signature, values, i) for i in (5, 7))
-        sizes = width, ir.Constant(_INT, 16), builder.mul(columns, ir.Constant(_INT, 6))
+        arguments = (context, builder, signature, values)
+        _, _, _, stride, lane, _, _, _, row = values
+        sines, cosines = (_array(*arguments, i).data for i in (1, 2))
+        q, T, J = (_array(*arguments, i).data for i in (5, 6, 7))
+        width = _width(*arguments, 5)
+        columns = _width(*arguments, 7)
+        entries = builder.mul(columns, ir.Constant(_INT, 6))
+        sizes = width, ir.Constant(_INT, 16), entries
         q, T, J = (
-            builder.gep(a, [builder.mul(values[8], s)])
-            for a, s in zip((q, T, J), sizes, strict=True)
+            builder.gep(a, [builder.mul(row, s)]) for a, s in zip((q, T, J), sizes, strict=True)
         )
-        sines, cosines = (builder.gep(a, [values[4]]) for a in (sines, cosines))
-        builder.call(function, [sines, cosines, values[3], q, width, T, J])
+        sines, cosines = (builder.gep(a, [lane]) for a in (sines, cosines))
+        builder.call(function, [sines, cosines, stride, q, width, T, J])
         return context.get_dummy_value()
 
     return types.void(code, sines, cosines, stride, lane, q, T, J, row), generate
@@ -87,7 +89,8 @@ def _integers(typing_context, address):
     """An address as a pointer to integers."""
 
     def generate(context, builder, signature, values):
-        return builder.inttoptr(values[0], context.get_value_type(signature.return_type))
+        kind = context.get_value_type(signature.return_type)
+        return builder.inttoptr(values[0], kind)
 
     return types.CPointer(types.int64)(address), generate
 
@@ -116,7 +119,8 @@ def run_columns(arm, sines, cosines, k, q, R_p, J):
     """Four configurations of a block, from its k-th on: the pose's numbers R_p (12, LANES) and the
     Jacobian's J (6 m, LANES), by code whose layout is "columns".
     """
-    _run(_header(arm)[3], sines, cosines, BLOCK, k, q[k:], R_p, J, 0)
+    columns = _header(arm)[3]
+    _run(columns, sines, cosines, BLOCK, k, q[k:], R_p, J, 0)
 
 
 def _all_moderate(sines, count):
@@ -173,13 +177,16 @@ def _apart(a, b):
     """Whether two arrays share no memory."""
     start = a.ctypes.data
     start2 = b.ctypes.data
-    return start + 8 * a.size <= start2 or start2 + 8 * b.size <= start
+    end = start + 8 * a.size
+    end2 = start2 + 8 * b.size
+    return end <= start2 or end2 <= start
 
 
 @kernel("int w1 w2", returns="int", quick=True)
 def pose_one(arm, q, T):
     """f(q) of one configuration."""
-    if len(q) != _header(arm)[1] or T.shape != (4, 4) or not _apart(q, T):
+    m = _header(arm)[1]
+    if len(q) != m or T.shape != (4, 4) or not _apart(q, T):
         return 0
     q = without_refcount(q)
     T = without_refcount(T)
@@ -205,7 +212,8 @@ def pose_jacobian_one(arm, q, T, J):
     m = _header(arm)[1]
     if len(q) != m or T.shape != (4, 4) or J.shape != (6, m):
         return 0
-    if not (_apart(q, T) and _apart(q, J) and _apart(T, J)):
+    apart = _apart(q, T) and _apart(q, J)
+    if not apart or not _apart(T, J):
         return 0
     q = without_refcount(q)
     T = without_refcount(T)
@@ -235,13 +243,15 @@ def _many(arm, q, T, J):
 @kernel("int w2 w3")
 def pose_many(arm, q, T):
     """f(q) of many configurations."""
-    _many(arm, without_refcount(q), without_refcount(T), without_refcount(T))
+    T = without_refcount(T)
+    _many(arm, without_refcount(q), T, T)
 
 
 @kernel("int w2 w3")
 def jacobian_many(arm, q, J):
     """The Jacobian of many configurations."""
-    _many(arm, without_refcount(q), without_refcount(J), without_refcount(J))
+    J = without_refcount(J)
+    _many(arm, without_refcount(q), J, J)
 
 
 @kernel("int w2 w3 w3")

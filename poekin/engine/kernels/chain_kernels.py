@@ -59,8 +59,10 @@ def set_rates(table, dq, dx):
 def joint_frame(T, table, sines, cosines, shifts, i):
     """Pose of joint i's frame after its motion, T that of the joint before it."""
     if i == 0:
-        return turned_about_z(pose(table[0]), sines[0], cosines[0], shifts[0])
-    return forward.next_frame(T, table[i], sines[i], cosines[i], shifts[i])
+        first = pose(table[0])
+        return turned_about_z(first, sines[0], cosines[0], shifts[0])
+    link = table[i]
+    return forward.next_frame(T, link, sines[i], cosines[i], shifts[i])
 
 
 @kernel("w2 r1 w2", bare=True)
@@ -78,13 +80,14 @@ def pose_one(table, q, T):
 @kernel("w2 r2 w3")
 def pose_many(table, q, T):
     """f(q) of many configurations."""
+    n = table.shape[0] - 1
     sines, cosines, shifts = scratch(table)
     table = without_refcount(table)
     q = without_refcount(q)
     T = without_refcount(T)
     for k in range(q.shape[0]):
         set_motions(table, q[k], sines, cosines, shifts)
-        store_matrix(T[k], forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
+        store_matrix(T[k], forward.tip(table, sines, cosines, shifts, n))
 
 
 @kernel("w2 r1 int w2 w2", bare=True)
@@ -96,8 +99,11 @@ def pose_jacobian_one(table, q, frame, T, J):
     T = without_refcount(T)
     J = without_refcount(J)
     # the rows of J serve as scratch: taking memory costs as much as three joints
-    set_motions(table, q, J[0], J[1], J[2])
-    tip = forward.tip_and_axes(table, J[0], J[1], J[2], n, J)
+    sines = J[0]
+    cosines = J[1]
+    shifts = J[2]
+    set_motions(table, q, sines, cosines, shifts)
+    tip = forward.tip_and_axes(table, sines, cosines, shifts, n, J)
     store_matrix(T, tip)
     p = (0.0, 0.0, 0.0) if frame == SPACE else translation(tip)
     columns.about_point(J, table[:, ROTATES], table[:, SLIDES], n, p)
@@ -121,7 +127,8 @@ def _pose_jacobian(table, q, frame, T, J_x):
         set_motions(table, q[k], sines, cosines, shifts)
         J = J_x[k]
         tip = forward.tip_and_axes(table, sines, cosines, shifts, n, J)
-        store_matrix(T[min(k, T.shape[0] - 1)], tip)
+        last = T.shape[0] - 1
+        store_matrix(T[min(k, last)], tip)
         at = tip
         p = translation(tip)
         if frame >= 0:
@@ -139,13 +146,14 @@ def pose_jacobian_many(table, q, frame, T, J):
     """f(q) and the Jacobian of many configurations; a T of length 1 is scratch, used again and
     again.
     """
+    n = table.shape[0] - 1
     if table.shape[1] > OFFSET:
-        J_x = np.empty((1, 6, table.shape[0] - 1))
+        J_x = np.empty((1, 6, n))
         coupling = table[:, COUPLING:]
         for k in range(q.shape[0]):
             j = min(k, T.shape[0] - 1)
             _pose_jacobian(table, q[k : k + 1], frame, T[j : j + 1], J_x)
-            columns.coupled(J_x[0], coupling, table.shape[0] - 1, q.shape[1], J[k])
+            columns.coupled(J_x[0], coupling, n, q.shape[1], J[k])
     else:
         _pose_jacobian(table, q, frame, T, J)
 
@@ -173,8 +181,11 @@ def body_velocity(table, q, dq, V):
         set_motions(table, q[k], sines, cosines, shifts)
         set_rates(table, dq[k], rates)
         for i in range(n):
-            store_row(links[i], turned_about_z(pose(table[i]), sines[i], cosines[i], shifts[i]))
+            link = pose(table[i])
+            moved = turned_about_z(link, sines[i], cosines[i], shifts[i])
+            store_row(links[i], moved)
         tool = pose(table[n])
         rotates = table[:, ROTATES]
         slides = table[:, SLIDES]
-        store_row(V[k], recursive.body_velocity(links, tool, rotates, slides, n, rates))
+        velocity = recursive.body_velocity(links, tool, rotates, slides, n, rates)
+        store_row(V[k], velocity)

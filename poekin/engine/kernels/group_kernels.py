@@ -10,91 +10,102 @@ from ..jit.kernel import kernel
 def so3_exp(w, R):
     """exp [w] of rows."""
     for k in range(w.shape[0]):
-        store_rotation(R[k], exponential.so3(angular(w[k])))
+        R_k = exponential.so3(angular(w[k]))
+        store_rotation(R[k], R_k)
 
 
 @kernel("r3 w2")
 def so3_log(R, w):
     """Principal log of matrices."""
     for k in range(w.shape[0]):
-        store_row(w[k], logarithm.so3(load_rotation(R[k])))
+        w_k = logarithm.so3(load_rotation(R[k]))
+        store_row(w[k], w_k)
 
 
 @kernel("r3 r2 w2")
 def so3_log_near(R, near, w):
     """The log nearest to a given one."""
     for k in range(w.shape[0]):
-        store_row(w[k], logarithm.so3_near(load_rotation(R[k]), angular(near[k])))
+        R_k = load_rotation(R[k])
+        w_k = logarithm.so3_near(R_k, angular(near[k]))
+        store_row(w[k], w_k)
 
 
 @kernel("r3 w2")
 def so3_quaternion(R, Q):
     """Unit quaternions (w, x, y, z), w >= 0, of matrices."""
     for k in range(R.shape[0]):
-        store_row(Q[k], quaternion.unit_quaternion(load_rotation(R[k])))
+        Q_k = quaternion.unit_quaternion(load_rotation(R[k]))
+        store_row(Q[k], Q_k)
 
 
 @kernel("r2 w3")
 def so3_from_quaternion(Q, R):
     """Matrices of multiples of quaternions (w, x, y, z)."""
     for k in range(Q.shape[0]):
-        store_rotation(R[k], quaternion.rotation(Q[k][0], Q[k][1], Q[k][2], Q[k][3]))
+        q = Q[k]
+        R_k = quaternion.rotation(q[0], q[1], q[2], q[3])
+        store_rotation(R[k], R_k)
 
 
 @kernel("r3 w2")
 def so3_zyx_turns(R, turns):
     """Sines and cosines of A, B, C of matrices Rz(A) Ry(B) Rx(C)."""
     for k in range(R.shape[0]):
-        store_row(turns[k], euler.zyx_turns(load_rotation(R[k])))
+        turns_k = euler.zyx_turns(load_rotation(R[k]))
+        store_row(turns[k], turns_k)
 
 
 @kernel("r3 w2")
 def so3_zyz_turns(R, turns):
     """Sines and cosines of A, B, C of matrices Rz(A) Ry(B) Rz(C)."""
     for k in range(R.shape[0]):
-        store_row(turns[k], euler.zyz_turns(load_rotation(R[k])))
+        turns_k = euler.zyz_turns(load_rotation(R[k]))
+        store_row(turns[k], turns_k)
 
 
 @kernel("r2 w3")
 def so3_left(w, J):
     """J(w) of rows."""
     for k in range(w.shape[0]):
-        store_rotation(J[k], exp_jacobian.left(angular(w[k])))
+        J_k = exp_jacobian.left(angular(w[k]))
+        store_rotation(J[k], J_k)
 
 
 @kernel("r2 w3")
 def so3_left_inverse(w, J):
     """J(w)^-1 of rows."""
     for k in range(w.shape[0]):
-        store_rotation(J[k], exp_jacobian.left_inverse(angular(w[k])))
+        J_k = exp_jacobian.left_inverse(angular(w[k]))
+        store_rotation(J[k], J_k)
 
 
 @kernel("r2 w3")
 def se3_exp(xi, T):
     """exp of twists."""
     for k in range(xi.shape[0]):
-        store_matrix(T[k], exponential.se3(angular(xi[k]), linear(xi[k])))
+        w = angular(xi[k])
+        v = linear(xi[k])
+        store_matrix(T[k], exponential.se3(w, v))
 
 
 @kernel("r3 w2")
 def se3_log(T, xi):
     """Principal log of poses."""
     for k in range(xi.shape[0]):
-        store_row(xi[k], logarithm.se3(load_matrix(T[k])))
+        xi_k = logarithm.se3(load_matrix(T[k]))
+        store_row(xi[k], xi_k)
 
 
 @kernel("r3 r2 w2")
 def se3_log_near(T, near, xi):
     """The log whose angular part is nearest to that of a given twist."""
     for k in range(xi.shape[0]):
-        store_row(
-            xi[k],
-            logarithm.se3_near(
-                load_matrix(T[k]),
-                angular(near[k]),
-                linear(near[k]),
-            ),
-        )
+        T_k = load_matrix(T[k])
+        w_near = angular(near[k])
+        v_near = linear(near[k])
+        xi_k = logarithm.se3_near(T_k, w_near, v_near)
+        store_row(xi[k], xi_k)
 
 
 @kernel("r3 w3")
@@ -108,7 +119,8 @@ def _store_blocks(J, diagonal, corner):
     """The 6x6 matrix [diagonal 0; corner diagonal], each block by its first nine numbers."""
     for r in range(3):
         for c in range(3):
-            J[r][c] = J[r + 3][c + 3] = diagonal[3 * r + c]
+            J[r][c] = diagonal[3 * r + c]
+            J[r + 3][c + 3] = diagonal[3 * r + c]
             J[r + 3][c] = corner[3 * r + c]
             J[r][c + 3] = 0.0
 
@@ -119,7 +131,8 @@ def se3_adjoint(T_ab, Ad):
     for k in range(T_ab.shape[0]):
         T = load_matrix(T_ab[k])
         X, Y, Z, p = axes(T)
-        _store_blocks(Ad[k], T, from_axes(cross(p, X), cross(p, Y), cross(p, Z), p))
+        crossed = from_axes(cross(p, X), cross(p, Y), cross(p, Z), p)
+        _store_blocks(Ad[k], T, crossed)
 
 
 @kernel("r2 w3")
@@ -128,7 +141,8 @@ def se3_left(xi, J):
     for k in range(xi.shape[0]):
         w = angular(xi[k])
         v = linear(xi[k])
-        _store_blocks(J[k], exp_jacobian.left(w), exp_jacobian.left_dual(w, v))
+        diagonal = exp_jacobian.left(w)
+        _store_blocks(J[k], diagonal, exp_jacobian.left_dual(w, v))
 
 
 @kernel("r2 w3")
@@ -137,7 +151,9 @@ def se3_left_inverse(xi, J):
     for k in range(xi.shape[0]):
         w = angular(xi[k])
         v = linear(xi[k])
-        _store_blocks(J[k], exp_jacobian.left_inverse(w), exp_jacobian.left_inverse_dual(w, v))
+        diagonal = exp_jacobian.left_inverse(w)
+        corner = exp_jacobian.left_inverse_dual(w, v)
+        _store_blocks(J[k], diagonal, corner)
 
 
 @kernel("r3 w1", returns="int")
@@ -155,7 +171,8 @@ def first_defect(M, found):
         sign = defect.determinant(R)
         last = 0.0
         if M.shape[1] == 4:
-            last = abs(M[k][3][0]) + abs(M[k][3][1]) + abs(M[k][3][2]) + abs(M[k][3][3] - 1.0)
+            row = M[k][3]
+            last = abs(row[0]) + abs(row[1]) + abs(row[2]) + abs(row[3] - 1.0)
         if off > limit or sign < 0.0 or last > limit:
             store_row(found, (off, sign, last))
             return k

@@ -14,8 +14,7 @@ from ...checks import REQUIRED, whole
 from ...errors import InputError, quote
 from ...groups import se3
 from ...groups.arrays import ROUNDOFF, Array
-from ...groups.blocks import translation_part
-from ...groups.vectors import norm
+from ...groups.vectors import norm, translation_part
 from ...model.chain import Chain
 from ...model.geometry.normals import (
     Normal,

@@ -10,7 +10,7 @@ from ...algebra import compose
 from ...formulas import dh
 from ...groups import se3
 from ...groups.arrays import Array
-from ...groups.blocks import rotation_part, translation_part
+from ...groups.vectors import rotation_part, translation_part
 from ...model.chain import Chain
 from ...model.joint import Joint
 from ...model.robot import Robot

@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import InputError, safe_repr
 from ...groups import se3
 from ...groups.arrays import Array, shaped
-from ...groups.blocks import angular_part, linear_part
+from ...groups.vectors import angular_part, linear_part
 from ...model.chain import Chain
 from ...model.checks import one_pose
 from ...model.joint import Joint, JointKind, Mimic

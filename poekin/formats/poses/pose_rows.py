@@ -11,9 +11,8 @@ from ...engine.kernels import group_kernels
 from ...errors import PoekinError, PoseError
 from ...groups import euler, se3, so3
 from ...groups.arrays import Array, map_kernel, poses
-from ...groups.blocks import rotation_part, translation_part
 from ...groups.so3.exp_log import exp_of_vectors
-from ...groups.vectors import norms
+from ...groups.vectors import norms, rotation_part, translation_part
 from ...model.kinematics.analytic import quaternion_wxyz
 from .layout import PoseLayout
 

@@ -11,8 +11,7 @@ import numpy as np
 
 from ...groups import se3, so3
 from ...groups.arrays import Array
-from ...groups.blocks import angular_part, linear_part, rotation_part, translation_part
-from ...groups.vectors import norm
+from ...groups.vectors import angular_part, linear_part, norm, rotation_part, translation_part
 from ...model.chain import Chain
 from ...model.joint import Joint
 

@@ -11,7 +11,7 @@ from ...checks import choice
 from ...errors import InputError, join_names, quote
 from ...groups import so3
 from ...groups.arrays import Array
-from ...groups.blocks import rotation_part, translation_part
+from ...groups.vectors import rotation_part, translation_part
 from ...model.chain import Chain
 from ...model.joint import Joint
 from ...model.provenance import Source, warn

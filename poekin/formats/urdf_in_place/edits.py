@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...groups.arrays import Array
-from ...groups.blocks import rotation_part, translation_part
+from ...groups.vectors import rotation_part, translation_part
 from ...model.joint import MOVING, Joint
 from .. import rpy
 from ..poses import pose_rows

@@ -9,8 +9,7 @@ import numpy as np
 
 from ...errors import InputError, ModelError, escape_unprintable, join_names, quote
 from ...groups.arrays import Array
-from ...groups.blocks import rotation_part, translation_part
-from ...groups.vectors import norm
+from ...groups.vectors import norm, rotation_part, translation_part
 from ...model.joint import MOVING, Joint
 from ...model.provenance import Source
 from ...model.robot import Robot

@@ -9,8 +9,14 @@ import numpy as np
 
 from ...groups import se3, so3
 from ...groups.arrays import Array
-from ...groups.blocks import angular_part, directions, linear_part, rotation_part, translation_part
-from ...groups.vectors import norm
+from ...groups.vectors import (
+    angular_part,
+    directions,
+    linear_part,
+    norm,
+    rotation_part,
+    translation_part,
+)
 from ...model.chain import Chain
 from ...model.robot import Robot
 

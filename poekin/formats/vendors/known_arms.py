@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...groups.arrays import Array
-from ...groups.blocks import translation_part
+from ...groups.vectors import translation_part
 from ...model.chain import Chain
 from .. import dh, rpy
 from .calibration import FactoryCalibration

@@ -26,7 +26,7 @@ import numpy as np
 
 from ...checks import choice
 from ...errors import InputError, ModelError, PoekinError, join_names, quote
-from ...groups.blocks import rotation_part, translation_part
+from ...groups.vectors import rotation_part, translation_part
 from .. import rpy as angles
 from ..text import xml, yaml_text
 from ..text.atomic_write import FilePath, write_whole

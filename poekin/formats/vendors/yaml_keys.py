@@ -9,8 +9,7 @@ import numpy as np
 from ...errors import ModelError, quote, suggest
 from ...groups import se3
 from ...groups.arrays import Array
-from ...groups.blocks import rotation_part
-from ...groups.vectors import norm
+from ...groups.vectors import norm, rotation_part
 from .. import rpy as angles
 from ..text.numbers import real
 from ..text.yaml_text import MappingNode, TextNode

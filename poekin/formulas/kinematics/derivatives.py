@@ -21,12 +21,15 @@ def bracket(X, Y):
     """[X, Y] = ad(X) Y = (w_X x w_Y; w_X x v_Y + v_X x w_Y): 18 multiplications and 12 additions."""
     w = angular(X)
     a = angular(Y)
-    return twist(cross(w, a), add(cross(w, linear(Y)), cross(linear(X), a)))
+    v = add(cross(w, linear(Y)), cross(linear(X), a))
+    return twist(cross(w, a), v)
 
 
 def scale_twist(k, V):
     """k V of a scalar and a twist."""
-    return twist(scale(k, angular(V)), scale(k, linear(V)))
+    w = scale(k, angular(V))
+    v = scale(k, linear(V))
+    return twist(w, v)
 
 
 def add_twists(V, W):
@@ -48,7 +51,8 @@ def subtract_twists(V, W):
 def at_point(V, p):
     """(w; v + w x p): the same twist with the velocity of the point p in place of the origin's."""
     w = angular(V)
-    return twist(w, add(linear(V), cross(w, p)))
+    turned = cross(w, p)
+    return twist(w, add(linear(V), turned))
 
 
 def cumulative_twists(J, rates, count, V):
@@ -60,7 +64,8 @@ def cumulative_twists(J, rates, count, V):
     W = scale_twist(rates[0], column(J, 0))
     set_column(V, 0, W)
     for i in range(1, count):
-        W = add_twists(W, scale_twist(rates[i], column(J, i)))
+        own = scale_twist(rates[i], column(J, i))
+        W = add_twists(W, own)
         set_column(V, i, W)
 
 
@@ -83,7 +88,8 @@ def body_rate(J, rates, count, dJ):
     24 n - 18 multiplications and 18 n - 18 additions.
     """
     set_column(dJ, count - 1, ZERO_TWIST)
-    U = scale_twist(rates[count - 1], column(J, count - 1))
+    last = column(J, count - 1)
+    U = scale_twist(rates[count - 1], last)
     for i in range(count - 2, -1, -1):
         B = column(J, i)
         set_column(dJ, i, bracket(B, U))
@@ -101,34 +107,32 @@ def hybrid_rate(J, rates, count, dJ):
     u = scale(rates[count - 1], linear(last))
     for i in range(count - 2, -1, -1):
         H = column(J, i)
-        set_column(dJ, i, twist((0.0, 0.0, 0.0), cross(angular(H), u)))
+        v = cross(angular(H), u)
+        set_column(dJ, i, twist((0.0, 0.0, 0.0), v))
         u = add(u, scale(rates[i], linear(H)))
     first = column(J, 0)
     W = scale(rates[0], angular(first))
-    v = add(linear(column(dJ, 0)), cross(W, linear(first)))
+    v = linear(column(dJ, 0))
+    v = add(v, cross(W, linear(first)))
     set_column(dJ, 0, twist((0.0, 0.0, 0.0), v))
     for i in range(1, count):
         H = column(J, i)
         w = angular(H)
         before = W
         W = add(W, scale(rates[i], w))
-        set_column(dJ, i, twist(cross(before, w), add(linear(column(dJ, i)), cross(W, linear(H)))))
+        v = linear(column(dJ, i))
+        v = add(v, cross(W, linear(H)))
+        set_column(dJ, i, twist(cross(before, w), v))
 
 
 def acceleration(J, dJ, rates, accelerations, count):
     """dV/dt = J ddx + (dJ/dt) dx, in the frame of J: 12 n multiplications and 12 n - 6 additions."""
-    A = add_twists(
-        scale_twist(accelerations[0], column(J, 0)),
-        scale_twist(rates[0], column(dJ, 0)),
-    )
+    own = scale_twist(accelerations[0], column(J, 0))
+    A = add_twists(own, scale_twist(rates[0], column(dJ, 0)))
     for i in range(1, count):
-        A = add_twists(
-            A,
-            add_twists(
-                scale_twist(accelerations[i], column(J, i)),
-                scale_twist(rates[i], column(dJ, i)),
-            ),
-        )
+        own = scale_twist(accelerations[i], column(J, i))
+        carried = scale_twist(rates[i], column(dJ, i))
+        A = add_twists(A, add_twists(own, carried))
     return A
 
 
@@ -145,7 +149,8 @@ def space_hessian(J, count, H):
     for i in range(count):
         S = column(J, i)
         for j in range(i):
-            set_derivative(H, i, j, bracket(column(J, j), S))
+            carried = bracket(column(J, j), S)
+            set_derivative(H, i, j, carried)
         for j in range(i, count):
             set_derivative(H, i, j, ZERO_TWIST)
 
@@ -159,7 +164,8 @@ def body_hessian(J, count, H):
         for j in range(i + 1):
             set_derivative(H, i, j, ZERO_TWIST)
         for j in range(i + 1, count):
-            set_derivative(H, i, j, bracket(B, column(J, j)))
+            carried = bracket(B, column(J, j))
+            set_derivative(H, i, j, carried)
 
 
 def hybrid_hessian(J, count, H):
@@ -172,7 +178,9 @@ def hybrid_hessian(J, count, H):
         later = column(J, i)
         for j in range(i + 1):
             earlier = column(J, j)
-            v = cross(angular(earlier), linear(later))
+            w = angular(earlier)
+            v = cross(w, linear(later))
             set_derivative(H, j, i, twist((0.0, 0.0, 0.0), v))
             if j < i:
-                set_derivative(H, i, j, twist(cross(angular(earlier), angular(later)), v))
+                turned = cross(w, angular(later))
+                set_derivative(H, i, j, twist(turned, v))

@@ -18,22 +18,26 @@ def frame(links, sines, cosines, shifts, count):
     """Pose of the frame of joint number `count` (1 ... n) in the base frame, after the joint's own
     motion.
     """
-    T = turned_about_z(pose(links[0]), sines[0], cosines[0], shifts[0])
+    first = pose(links[0])
+    T = turned_about_z(first, sines[0], cosines[0], shifts[0])
     for i in range(1, count):
-        T = next_frame(T, links[i], sines[i], cosines[i], shifts[i])
+        link = links[i]
+        T = next_frame(T, link, sines[i], cosines[i], shifts[i])
     return T
 
 
 def next_frame(T, link, sine, cosine, shift):
     """Pose of the next joint's frame after its motion, from that of the joint before it."""
-    return turned_about_z(compose(T, link), sine, cosine, shift)
+    unmoved = compose(T, link)
+    return turned_about_z(unmoved, sine, cosine, shift)
 
 
 def tip(links, sines, cosines, shifts, count):
     """f(x), the pose of the tool in the base frame, of a chain of `count` joints."""
     T = pose(links[0])
     for i in range(count):
-        T = compose(turned_about_z(T, sines[i], cosines[i], shifts[i]), links[i + 1])
+        moved = turned_about_z(T, sines[i], cosines[i], shifts[i])
+        T = compose(moved, links[i + 1])
     return T
 
 
@@ -50,7 +54,8 @@ def tip_and_axes(links, sines, cosines, shifts, count, axes):
         cosine = cosines[i]
         shift = shifts[i]
         set_column(axes, i, (T[2], T[5], T[8], T[9], T[10], T[11]))
-        T = compose(turned_about_z(T, sine, cosine, shift), links[i + 1])
+        moved = turned_about_z(T, sine, cosine, shift)
+        T = compose(moved, links[i + 1])
     return T
 
 
@@ -58,4 +63,6 @@ def child(T_parent, origin, screw, q, sine, cosine):
     """Pose of a tree's link: its parent's, times the joint's constant pose, times e^{S q} in the
     joint's own frame.
     """
-    return compose(compose(T_parent, origin), joint(angular(screw), linear(screw), q, sine, cosine))
+    at_zero = compose(T_parent, origin)
+    motion = joint(angular(screw), linear(screw), q, sine, cosine)
+    return compose(at_zero, motion)

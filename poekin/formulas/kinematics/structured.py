@@ -36,7 +36,8 @@ def outward(frame, links, d_offsets, parallel, sines, cosines, begin, rows):
     run_Y = Y
     for i in range(begin, len(links)):
         sin_alpha, cos_alpha, a, b = link(links[i])
-        o = add(add(o, scale(a, X)), scale(b, Y))
+        o = add(o, scale(a, X))
+        o = add(o, scale(b, Y))
         if not parallel[i]:
             Y, Z = turn_axes(Y, Z, sin_alpha, cos_alpha)
             run_X = X
@@ -63,7 +64,8 @@ def inward(frame, links, d_offsets, parallel, sines, cosines, begin, rows):
             Z, Y = turn_axes(Z, Y, sin_alpha, cos_alpha)
             run_X = X
             run_Y = Y
-        o = subtract(subtract(o, scale(a, X)), scale(b, Y))
+        o = subtract(o, scale(a, X))
+        o = subtract(o, scale(b, Y))
     return X, Y, Z, o
 
 
@@ -146,11 +148,11 @@ def columns_of_axes(rows, points, rotates, slides, begin, end, J):
         row = rows[i]
         r = rotates[i]
         s = slides[i]
+        X = (row[0], row[1], row[2])
+        Y = (row[3], row[4], row[5])
         Z = (row[6], row[7], row[8])
-        v = subtract(
-            scale(points[i][0], (row[3], row[4], row[5])),
-            scale(points[i][1], (row[0], row[1], row[2])),
-        )
+        point = points[i]
+        v = subtract(scale(point[0], Y), scale(point[1], X))
         w = scale(r, Z)
         v = add(scale(r, v), scale(s, Z))
         set_column(J, i, twist(w, v))

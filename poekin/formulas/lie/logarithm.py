@@ -39,15 +39,16 @@ def _polar(R):
     v_rest = (q_rest[1], q_rest[2], q_rest[3])
     vv = dot(v, v)
     if vv < _UNDERFLOW * w * w:
-        return 2.0, 0.0, (v, v_rest, w, 0.0, 1.0 / w), w / w
+        axis = (v, v_rest, w, 0.0, 1.0 / w)
+        return 2.0, 0.0, axis, w / w
     r = sign * elementary.sqrt(vv)
     inverse = 1.0 / r
-    r_rest = (
-        0.5 * inverse * (square_rest(v, r, vv) + quotient_rest(vv, r, r) + 2.0 * dot(v, v_rest))
-    )
+    r_rest = square_rest(v, r, vv) + quotient_rest(vv, r, r) + 2.0 * dot(v, v_rest)
+    r_rest = 0.5 * inverse * r_rest
     half, rest = angle(sign * r, sign * w)
     rest = rest + inverse_square * (r_rest * w - r * w_rest)
-    return 2.0 * half, 2.0 * rest, (v, v_rest, r, r_rest, inverse), w * inverse
+    axis = (v, v_rest, r, r_rest, inverse)
+    return 2.0 * half, 2.0 * rest, axis, w * inverse
 
 
 def _product(k, k_rest, x, x_rest, size):
@@ -55,7 +56,8 @@ def _product(k, k_rest, x, x_rest, size):
     abs(size).
     """
     x_upper = upper(x, size)
-    return k * x_upper + (k * (x - x_upper + x_rest) + k_rest * x)
+    lower = x - x_upper + x_rest
+    return k * x_upper + (k * lower + k_rest * x)
 
 
 def _rotation_vector(theta, rest, axis):
@@ -63,7 +65,8 @@ def _rotation_vector(theta, rest, axis):
     v, v_rest, r, r_rest, inverse = axis
     k = theta * inverse
     k_upper = upper(k, k)
-    k_rest = (k - k_upper) + inverse * (quotient_rest(theta, k, r) + (rest - k * r_rest))
+    quotient = quotient_rest(theta, k, r)
+    k_rest = (k - k_upper) + inverse * (quotient + (rest - k * r_rest))
     return (
         _product(k_upper, k_rest, v[0], v_rest[0], r),
         _product(k_upper, k_rest, v[1], v_rest[1], r),
@@ -89,11 +92,13 @@ def _linear_part(w, n, p, e):
     tt = dot(w, w)
     across = cross(w, p)
     if elementary.below(tt, SWITCH):
-        return linear_combination(1.0, p, d_of(tt), cross(w, across), -0.5, across)
+        twice = cross(w, across)
+        return linear_combination(1.0, p, d_of(tt), twice, -0.5, across)
     k = dot(n, p)
     p_across = subtract(p, scale(k, n))
     more = dot(n, p_across)  # of p_across, what rounding left along n
-    return add(scale(k, n), linear_combination(e, p_across, (1.0 - e) * more, n, -0.5, across))
+    along = (1.0 - e) * more
+    return add(scale(k, n), linear_combination(e, p_across, along, n, -0.5, across))
 
 
 def se3(T):
@@ -101,7 +106,8 @@ def se3(T):
     theta, rest, axis, cotangent = _polar(T)
     w = _rotation_vector(theta, rest, axis)
     e = 0.5 * theta * cotangent
-    return twist(w, _linear_part(w, scale(axis[4], axis[0]), translation(T), e))
+    n = scale(axis[4], axis[0])
+    return twist(w, _linear_part(w, n, translation(T), e))
 
 
 def _nearest_branch(theta, rest, axis, w_near):
@@ -124,7 +130,8 @@ def _nearest_branch(theta, rest, axis, w_near):
     k = k - k % 1.0
     turned = k * _TAU
     phi = theta + turned
-    rest = rest + (sum_rest(theta, turned, phi) + (k * _TAU_REST - quotient_rest(turned, k, _TAU)))
+    turned_rest = k * _TAU_REST - quotient_rest(turned, k, _TAU)
+    rest = rest + (sum_rest(theta, turned, phi) + turned_rest)
     return _rotation_vector(phi, rest, axis), phi, False
 
 
@@ -146,7 +153,9 @@ def se3_near(T, w_near, v_near):
     p = translation(T)
     if not free:
         # (phi/2) cot(phi/2): the cotangent is that of theta/2, which has lost no digit
-        return twist(w, _linear_part(w, scale(axis[4], axis[0]), p, 0.5 * phi * cotangent))
+        n = scale(axis[4], axis[0])
+        e = 0.5 * phi * cotangent
+        return twist(w, _linear_part(w, n, p, e))
     n = scale(1.0 / phi, w)
     along = scale(dot(n, p), n)
     p_across = cross(cross(n, p), n)

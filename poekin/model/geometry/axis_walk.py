@@ -20,7 +20,7 @@ import numpy as np
 from ...algebra import add, cross, dot, scale, subtract
 from ...errors import quote
 from ...groups.arrays import Array
-from ...groups.blocks import translation_part
+from ...groups.vectors import translation_part
 from ..chain_data import ChainData
 from .normals import (
     BASE,

@@ -13,7 +13,7 @@ import numpy as np
 from ...algebra import add, cross, scale, subtract
 from ...errors import InputError, quote
 from ...groups.arrays import Array
-from ...groups.blocks import angular_part, rotation_part, translation_part
+from ...groups.vectors import angular_part, rotation_part, translation_part
 from ..chain_data import ChainData
 from .normals import (
     BASE,

@@ -19,7 +19,7 @@ from ...algebra import dot, subtract
 from ...checks import is_real
 from ...errors import InputError, safe_repr
 from ...groups.arrays import ROUNDOFF, Array
-from ...groups.blocks import directions
+from ...groups.vectors import directions
 from ...results import Result
 from ..chain_data import AnyChain, ChainData
 from ..sampling import largest_slides

@@ -16,7 +16,7 @@ import numpy as np
 from ... import algebra
 from ...engine.kernels import chain_kernels
 from ...groups.arrays import Array
-from ...groups.blocks import angular_part, linear_part, rotation_part, translation_part
+from ...groups.vectors import angular_part, linear_part, rotation_part, translation_part
 from ..checks import read_only
 
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
-from ...groups.blocks import angular_part, linear_part
+from ...groups.vectors import angular_part, linear_part
 
 Vector = tuple[Decimal, Decimal, Decimal]
 ZERO = Decimal(0)

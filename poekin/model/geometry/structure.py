@@ -19,7 +19,7 @@ import numpy as np
 from ...algebra import add, cross, dot, scale, subtract
 from ...engine.straight_line.specialise import Pose, Structure
 from ...engine.straight_line.trace import FOLD_TOLERANCE
-from ...groups.blocks import rotation_part, translation_part
+from ...groups.vectors import rotation_part, translation_part
 from ..chain_data import ChainData
 from .local import turned_least
 from .normals import (

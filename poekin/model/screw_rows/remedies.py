@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...groups.arrays import Array
-from ...groups.blocks import angular_part, linear_part, rotation_part
-from ...groups.vectors import norms
+from ...groups.vectors import angular_part, linear_part, norms, rotation_part
 
 UNIT = 1e-9
 """Difference from 1 that is accepted of the length of a screw's direction."""

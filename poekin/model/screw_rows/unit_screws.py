@@ -7,8 +7,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import ScrewError, ShapeError, quote
 from ...groups.arrays import Array, numbers
-from ...groups.blocks import angular_part, linear_part
-from ...groups.vectors import norm, norms
+from ...groups.vectors import angular_part, linear_part, norm, norms
 from ..checks import LONGEST, finite
 from .remedies import UNIT, matrix_among, other_reading
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ... import svg
 from ...groups.arrays import Array
-from ...groups.blocks import rotation_part, translation_part
+from ...groups.vectors import rotation_part, translation_part
 from ..chain_data import ChainData
 from ..coordinates import one_configuration
 from ..kinematics import pose_jacobian

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from ...groups.blocks import angular_part, linear_part
+from ...groups.vectors import angular_part, linear_part
 from ...html_page import caption, row, table
 from ..chain_data import ChainData
 from ..joint import Joint

@@ -13,8 +13,7 @@ import numpy as np
 from ...engine.kernels import ik_codes as codes
 from ...errors import InputError
 from ...groups.arrays import Array
-from ...groups.blocks import translation_part
-from ...groups.vectors import norms
+from ...groups.vectors import norms, translation_part
 from ...model.chain import Chain
 from ...model.readings.coupled import beyond_own_limits
 from ..joint_units import bounds

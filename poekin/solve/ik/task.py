@@ -15,7 +15,7 @@ from ...engine.kernels import ik_codes as codes
 from ...errors import InputError, PoseError, safe_repr
 from ...formulas.inverse import pose_error
 from ...groups.arrays import Array, poses, shaped
-from ...groups.blocks import rotation_part
+from ...groups.vectors import rotation_part
 from ...model.chain import Chain
 
 TASKS: dict[str, tuple[int, int, Part]] = {

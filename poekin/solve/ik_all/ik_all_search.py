@@ -14,8 +14,7 @@ import numpy as np
 
 from ...engine.jit import threads
 from ...groups.arrays import Array
-from ...groups.blocks import translation_part
-from ...groups.vectors import norms
+from ...groups.vectors import norms, translation_part
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ...model.sampling import sampling_range

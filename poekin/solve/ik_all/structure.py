@@ -10,8 +10,7 @@ from typing import Literal
 import numpy as np
 
 from ...groups.arrays import Array
-from ...groups.blocks import angular_part, linear_part
-from ...groups.vectors import norm
+from ...groups.vectors import angular_part, linear_part, norm
 from ...model.chain_data import ChainData
 
 FamilyKind = Literal["meeting", "parallel"]
@@ -58,18 +57,6 @@ class Misfit:
     angle: float
     distance: float
     exact: bool
-
-
-def family_of(chain: ChainData, tol: float) -> Family | None:
-    """The family of an arm of up to six joints whose axes miss it by at most `tol`, rad and m.
-
-    Exact families come first, then a spherical wrist, a spherical shoulder, parallel axes, and
-    three axes in the middle that meet. None where no three axes fit.
-    """
-    found = misfits(chain, tol, tol)
-    if not found:
-        return None
-    return found[0].family
 
 
 def misfits(chain: ChainData, angle: float, distance: float) -> list[Misfit]:

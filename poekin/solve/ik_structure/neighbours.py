@@ -6,8 +6,7 @@ import numpy as np
 
 from ...groups import se3
 from ...groups.arrays import Array
-from ...groups.blocks import angular_part, linear_part
-from ...groups.vectors import norm
+from ...groups.vectors import angular_part, linear_part, norm
 from ...model.chain import Chain
 from ..ik_all.structure import EXACT
 

@@ -11,9 +11,8 @@ from ...checks import choice
 from ...errors import ShapeError
 from ...groups import se3, so3
 from ...groups.arrays import Array, numbers, poses
-from ...groups.blocks import angular_part, linear_part, rotation_part, translation_part
 from ...groups.so3.exp_log import exp_of_vectors
-from ...groups.vectors import norms
+from ...groups.vectors import angular_part, linear_part, norms, rotation_part, translation_part
 
 Path = Literal["line", "screw"]
 

@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import FileError, quote
 from ...formats.visuals.of_robot import visuals_of
 from ...formats.visuals.visual import LeftOut, Visual
-from ...groups.blocks import translation_part
+from ...groups.vectors import translation_part
 from ...model.robot import Robot
 from .. import shapes
 from ..nodes import Attachment, Triangles

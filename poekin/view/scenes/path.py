@@ -9,7 +9,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...groups.arrays import Array
-from ...groups.blocks import translation_part
+from ...groups.vectors import translation_part
 from ...model.robot import Robot
 from ...solve.path.path_events import PathEvent
 from ...solve.path.path_result import PathResult

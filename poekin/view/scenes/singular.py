@@ -8,8 +8,7 @@ from dataclasses import replace
 from ...analysis.dexterity.messages import motion_words
 from ...analysis.dexterity.singularity import Singularity
 from ...groups.arrays import Array
-from ...groups.blocks import angular_part, linear_part, translation_part
-from ...groups.vectors import norm
+from ...groups.vectors import angular_part, linear_part, norm, translation_part
 from ...model.robot import Robot
 from ..nodes import Label, Node, Role, Triangles
 from ..scene import Scene

@@ -9,7 +9,7 @@ import numpy as np
 from ...analysis.amounts import Unit, amount
 from ...errors import InputError
 from ...groups.arrays import Array
-from ...groups.blocks import translation_part
+from ...groups.vectors import translation_part
 from ...model.chain import Chain
 from ...model.robot import Robot
 from ...solve.ik.solution import Solution

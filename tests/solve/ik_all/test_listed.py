@@ -133,8 +133,8 @@ def outcome(owner: list[int], within: list[int], name: str) -> Listing:
 
 
 def test_parts_of_a_batch_are_put_together_target_by_target():
-    first = np.array([0, 3]), outcome([0, 0, 1], [2, 1], "a")
-    second = np.array([2]), outcome([0], [1], "b")
+    first = Part(np.array([0, 3]), outcome([0, 0, 1], [2, 1], "a"))
+    second = Part(np.array([2]), outcome([0], [1], "b"))
     whole = gathered([first, second], 4)
     assert whole.places.owner.tolist() == [0, 0, 2, 3]
     assert whole.places.q.ravel().tolist() == [0.0, 1.0, 0.0, 2.0]

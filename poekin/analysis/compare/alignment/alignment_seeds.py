@@ -15,8 +15,14 @@ from numpy.typing import NDArray
 
 from ....groups import se3
 from ....groups.arrays import Array
-from ....groups.blocks import angular_part, directions, linear_part, rotation_part, translation_part
-from ....groups.vectors import dots
+from ....groups.vectors import (
+    angular_part,
+    directions,
+    dots,
+    linear_part,
+    rotation_part,
+    translation_part,
+)
 from ...axis_lines import Marks, cross, place
 from .alignments import Alignments, Rows
 from .lines import Lines, Sides

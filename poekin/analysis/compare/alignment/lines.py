@@ -14,8 +14,7 @@ import numpy as np
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.blocks import angular_part, rotation_part, translation_part
-from ....groups.vectors import applied, norms
+from ....groups.vectors import angular_part, applied, norms, rotation_part, translation_part
 from ....model.chain import Chain
 from ...axis_lines import (
     Marks,

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from ....groups.blocks import angular_part, linear_part, rotation_part
+from ....groups.vectors import angular_part, linear_part, rotation_part
 from ....model.chain import Chain
 from ...axis_lines import Tolerances
 from ..alignment.hypotheses import Hypothesis, as_they_stand

@@ -32,7 +32,6 @@ PARALLEL = 1
 BRANCHES = 8
 """Rows of a target: as many as any family has branches."""
 
-NO_COLUMN = -1
 # rad or m: how near to 0 a joint that the arm does not have is in a solution, and in what may be one
 # within the square root of rounding
 HELD = 1e-9

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ....errors import InputError, join_names, quote
-from ....groups.blocks import translation_part
-from ....groups.vectors import norm
+from ....groups.vectors import norm, translation_part
 from ....model.checks import finite
 from ....model.provenance import warn
 from ... import dh

@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
-from ....groups.blocks import angular_part, linear_part
-from ....groups.vectors import norm
+from ....groups.vectors import angular_part, linear_part, norm
 from ...chain_data import ChainData
 from ..other_frames import rezeroed
 

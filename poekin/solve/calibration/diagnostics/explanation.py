@@ -14,8 +14,7 @@ import numpy as np
 from ....errors import InputError, quote
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.blocks import rotation_part, translation_part
-from ....groups.vectors import norm
+from ....groups.vectors import norm, rotation_part, translation_part
 from ..fit import initial_guess
 from ..fit.fitting import fit_parameters
 from ..fit.initial_guess import MISFIT

@@ -16,8 +16,7 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from ....groups.arrays import Array
-from ....groups.blocks import angular_part, linear_part
-from ....groups.vectors import norms
+from ....groups.vectors import angular_part, linear_part, norms
 from ....model.checks import read_only
 from ..diagnostics.identification import RANK
 from ..fit.noise import NoiseEstimate

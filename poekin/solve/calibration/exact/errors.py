@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
-from ....groups.blocks import rotation_part, translation_part
+from ....groups.vectors import rotation_part, translation_part
 from ....model.chain import Chain
 from ....model.sampling import angle_mask
 from ..fit.losses import chi_square

@@ -16,8 +16,7 @@ import numpy as np
 from ....errors import InputError
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.blocks import rotation_part, translation_part
-from ....groups.vectors import norms
+from ....groups.vectors import norms, rotation_part, translation_part
 from ..model.tsqr import least_squares
 from .flatness import FLAT, describe, extents, is_flat
 from .reweighted import Weighted, reweighted

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3
 from ....groups.arrays import Array, poses
-from ....groups.blocks import translation_part
+from ....groups.vectors import translation_part
 from ....model.checks import finite, one_pose, read_only
 
 Rows = NDArray[np.integer]

@@ -12,8 +12,7 @@ from ....checks import choice
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
-from ....groups.blocks import rotation_part, translation_part
-from ....groups.vectors import norms
+from ....groups.vectors import norms, rotation_part, translation_part
 from ....model.checks import finite
 from ..fit import initial_guess
 from .measurement import Derivatives, Frames, Measurement, UnknownFrame, seen_from

@@ -9,7 +9,7 @@ import numpy as np
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.blocks import rotation_part, translation_part
+from ....groups.vectors import rotation_part, translation_part
 from ..fit import initial_guess
 from .measurement import Derivatives, Frames, Measurement, make_unknown_frame, pose_rows, seen_from
 

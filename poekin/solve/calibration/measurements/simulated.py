@@ -12,8 +12,7 @@ from ....checks import choice, whole
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
-from ....groups.blocks import rotation_part
-from ....groups.vectors import normalised, norms
+from ....groups.vectors import normalised, norms, rotation_part
 from ....model.chain import Chain
 from ....model.checks import finite, read_only
 from ....model.coordinates import coordinates

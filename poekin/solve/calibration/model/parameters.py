@@ -19,8 +19,7 @@ Mask = NDArray[np.bool_]
 KINDS: tuple[ParameterKind, ...] = get_args(ParameterKind)
 ROTATIONS = ("turn about x", "turn about y", "turn about z")
 TRANSLATIONS = ("shift along x", "shift along y", "shift along z")
-# the four directions in which an axis moves: columns of the joint's z-aligned frame
-_TILT = slice(0, 2)
+# of the four directions in which an axis moves, tilt and shift: columns of its z-aligned frame
 _SHIFT = slice(2, 4)
 
 

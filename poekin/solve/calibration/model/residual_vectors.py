@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
-from ....groups.blocks import rotation_part
+from ....groups.vectors import rotation_part
 from ..measurements.measurement import Frames, Measurement, Rows
 from ..measurements.points import Distances, Points, point_at, points_at
 

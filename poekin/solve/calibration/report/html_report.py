@@ -13,7 +13,7 @@ from ....analysis.compare.comparison import JointComparison
 from ....errors import ShapeError, escape_unprintable
 from ....groups import so3
 from ....groups.arrays import Array
-from ....groups.blocks import rotation_part, translation_part
+from ....groups.vectors import rotation_part, translation_part
 from ....html_page import caption, figure, paragraph, text
 from ..model.residuals import Residuals, largest, median, rms
 from ..result import CalibrationData

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.blocks import angular_part, directions, linear_part
-from ....groups.vectors import applied, dots, normalised
+from ....groups.vectors import angular_part, applied, directions, dots, linear_part, normalised
 from ....model.chain_data import AnyChain, ChainData
 from ..structure import Family, meeting_point
 

@@ -10,8 +10,14 @@ import numpy as np
 from ....errors import InputError, join_names
 from ....groups import so3
 from ....groups.arrays import Array
-from ....groups.blocks import angular_part, directions, linear_part, rotation_part, translation_part
-from ....groups.vectors import norm
+from ....groups.vectors import (
+    angular_part,
+    directions,
+    linear_part,
+    norm,
+    rotation_part,
+    translation_part,
+)
 from ....model.chain import Chain
 from ....model.sampling import angle_mask, half_range, sampling_range
 from ....results import Result

@@ -22,8 +22,16 @@ from numpy.typing import NDArray
 
 from ....groups import se3, so3
 from ....groups.arrays import ROUNDOFF, Array
-from ....groups.blocks import angular_part, directions, linear_part, rotation_part, translation_part
-from ....groups.vectors import applied, dots, norms
+from ....groups.vectors import (
+    angular_part,
+    applied,
+    directions,
+    dots,
+    linear_part,
+    norms,
+    rotation_part,
+    translation_part,
+)
 from ....model.chain_data import ChainData
 from ....model.sampling import largest_slides
 

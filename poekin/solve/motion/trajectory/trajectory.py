@@ -15,8 +15,7 @@ from ....errors import FileError, InputError, quote, safe_repr
 from ....formats.text import csv_rows
 from ....formats.text.atomic_write import FilePath, write_whole
 from ....groups.arrays import Array, numbers
-from ....groups.blocks import translation_part
-from ....groups.vectors import norms
+from ....groups.vectors import norms, translation_part
 from ....model.chain import Chain
 from ....model.readings.coupled import joint_values
 from ....results import Result

@@ -6,7 +6,7 @@ import numpy as np
 
 from ....errors import escape_unprintable
 from ....groups.arrays import Array
-from ....groups.blocks import angular_part, linear_part
+from ....groups.vectors import angular_part, linear_part
 from ....model.screw import axis_of
 from ...nodes import Attachment, Label, Node, Polyline, Role, Triangles
 from ...scene import PageTable

@@ -13,7 +13,7 @@ import numpy as np
 
 from ....errors import join_names
 from ....groups.arrays import Array
-from ....groups.blocks import translation_part
+from ....groups.vectors import translation_part
 from ....model.chain_data import ScrewKind
 from ....model.coordinates import one_configuration
 from ...scene import Slider

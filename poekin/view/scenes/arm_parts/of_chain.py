@@ -10,7 +10,7 @@ import numpy as np
 from ....analysis.axis_lines import uncoupled_at_zero
 from ....groups import se3
 from ....groups.arrays import Array
-from ....groups.blocks import translation_part
+from ....groups.vectors import translation_part
 from ....model.chain import Chain
 from ....model.readings.coupled import own_limits
 from ...scene import Slider

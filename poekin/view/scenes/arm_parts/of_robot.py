@@ -9,7 +9,7 @@ import numpy as np
 from ....analysis.amounts import joint_unit
 from ....groups import se3
 from ....groups.arrays import Array
-from ....groups.blocks import rotation_part, translation_part
+from ....groups.vectors import rotation_part, translation_part
 from ....model.chain_data import ScrewKind
 from ....model.joint import MOVING, Joint
 from ....model.robot import Robot

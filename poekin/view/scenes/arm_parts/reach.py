@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ....analysis.dexterity.manipulability import manipulability
-from ....groups.blocks import translation_part
+from ....groups.vectors import translation_part
 from ....model.chain import Chain
 from ...nodes import Attachment, Cloud
 

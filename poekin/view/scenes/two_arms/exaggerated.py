@@ -20,8 +20,7 @@ from ....analysis.compare.alignment.lines import lines
 from ....analysis.compare.comparison import NOISE, Comparison
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.blocks import angular_part, linear_part
-from ....groups.vectors import norm
+from ....groups.vectors import angular_part, linear_part, norm
 from ....model.chain import Chain
 from ..arm_parts.of_chain import chain_geometry
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ....groups import se3
 from ....groups.arrays import Array
-from ....groups.blocks import rotation_part
+from ....groups.vectors import rotation_part
 from ...kinematics import page_tips
 from ...nodes import Attachment, Label, Node
 from ...scene import SceneArm
