@@ -125,24 +125,25 @@ def _example_robots() -> list[str]:
 
 
 def _read(path: FilePath) -> Robot:
+    name = os.fsdecode(path)
     if pipes.is_pipe(path):
-        return robots.from_content(pipes.read(path), os.fsdecode(path))
+        return robots.from_content(pipes.read(path), name)
     archive, member = compressed.split(path)
     if member:
         content = xml.read_bytes(archive)
         return robots.from_content(content, archive, member=member)
-    name = os.fsdecode(path).lower()
-    if name.endswith(".toml") and chain_toml.is_calibration(path):
+    lower = name.lower()
+    if lower.endswith(".toml") and chain_toml.is_calibration(path):
         return chain_toml.read(path)
-    if name.endswith((".toml", ".csv")):
+    if lower.endswith((".toml", ".csv")):
         return dh.to_robot(dh.read(path))
-    if name.endswith(vendors.yaml_io.ENDINGS) and not _holds_description(path):
+    if lower.endswith(vendors.yaml_io.ENDINGS) and not _holds_description(path):
         return vendors.read(path).to_robot()
-    if name.endswith(".xml") and mjcf.is_mjcf(path):
+    if lower.endswith(".xml") and mjcf.is_mjcf(path):
         return mjcf.read(path)
-    if name.endswith(".xacro"):
+    if lower.endswith(".xacro"):
         raise ModelError(
-            f"{escape_unprintable(os.fsdecode(path), 400)}: xacro evaluates expressions that are in the file,"
+            f"{escape_unprintable(name, 400)}: xacro evaluates expressions that are in the file,"
             " which load never does: pk.xacro(path) does, and --xacro on the command line"
         )
     return _read_by_content(path)

@@ -83,12 +83,13 @@ def _ratios(C: Array) -> Array:
 
 
 def _words(F: Array, i: int, chain: Chain) -> str:
+    own = F[i, i]
     others = [j for j in np.flatnonzero(F[i]) if j != i]
     terms = [f"{F[i, j]:.6g} × {quote(chain.joint_names[j])}" for j in others]
-    if F[i, i] == 1.0 and not terms:
+    if own == 1.0 and not terms:
         return ""
-    if F[i, i]:
-        terms.append(f"{F[i, i]:.6g} × its coordinate")
+    if own:
+        terms.append(f"{own:.6g} × its coordinate")
     if not terms:
         return "does not move"
     return "follows " + " + ".join(terms)

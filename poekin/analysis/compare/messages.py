@@ -203,16 +203,18 @@ def equivalents(
     may be implicated.
     """
     said = []
+    names = list(map(quote, a.joint_names))
+    units = [joint_unit(kind) for kind in b.kinds]
     for frame, k, z in end_turns(a, b, first, tol):
-        far = amount(z, joint_unit(b.kinds[k]))
+        far = amount(z, units[k])
         said.append(
-            f"the {frame} moved by {far} along or about the axis of joint {k + 1} ({quote(a.joint_names[k])}) is the "
+            f"the {frame} moved by {far} along or about the axis of joint {k + 1} ({names[k]}) is the "
             f"same as a zero offset of {far} of that joint"
         )
     k = first.link
     if k and a.kinds[k] == "prismatic" and not first.moved[k]:
         said.append(
-            f"the link behind joint {k + 1} ({quote(a.joint_names[k])}), which slides, explains it as well"
+            f"the link behind joint {k + 1} ({names[k]}), which slides, explains it as well"
         )
     for other in others:
         (k,) = np.flatnonzero(other.implicated)
@@ -222,9 +224,9 @@ def equivalents(
         elif other.offset[k]:
             change = "a zero offset"
         if other.offset[k]:
-            change += f" of {amount(other.zeros[k], joint_unit(b.kinds[k]))}"
+            change += f" of {amount(other.zeros[k], units[k])}"
         said.append(
-            f"{change} of joint {k + 1} ({quote(a.joint_names[k])}), with the base and tool frames "
+            f"{change} of joint {k + 1} ({names[k]}), with the base and tool frames "
             "aligned to that, explains it as well"
         )
     return said

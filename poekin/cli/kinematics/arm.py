@@ -122,11 +122,14 @@ def compute(
     shape: tuple[int, ...],
 ) -> np.ndarray:
     """Results (N, *shape) of a function of configurations, computed in parts with progress."""
-    results = np.empty((len(arm.q), *shape))
+    q = arm.q
+    count = len(q)
+    results = np.empty((count, *shape))
     with Progress("computing") as progress:
-        for start in range(0, len(arm.q), ROWS_AT_ONCE):
-            progress(start, len(arm.q))
-            results[start : start + ROWS_AT_ONCE] = function(arm.q[start : start + ROWS_AT_ONCE])
+        for start in range(0, count, ROWS_AT_ONCE):
+            progress(start, count)
+            some = slice(start, start + ROWS_AT_ONCE)
+            results[some] = function(q[some])
     return results
 
 

@@ -147,10 +147,11 @@ def command(
             progress=progress,
         )
     drawn = None if draw is None else view(path, robot=robot)
+    teller = pages.teller(json, output is None)
     if fastest:
         report = heading(robot.name, chain) | _report(path)
         code = fastest_files.give(path, limit_a, limit_v, output, plot, json, report)
-        pages.save(drawn, draw, pages.teller(json, output is None))
+        pages.save(drawn, draw, teller)
         raise Exit(code)
     svg = ""
     if plot is not None:
@@ -160,7 +161,7 @@ def command(
         write_whole(plot, svg.encode())
         if not json:
             say(f"joints drawn in {path_text(plot)}")
-    pages.save(drawn, draw, pages.teller(json, output is None))
+    pages.save(drawn, draw, teller)
     raise Exit(0 if path.ok else poses.UNSOLVED)
 
 

@@ -43,6 +43,10 @@ def command(
         _show(counts)
 
 
+def _title(group: str) -> str:
+    return group[0].upper() + group[1:]
+
+
 def _show(counts: CountTable) -> None:
     say(
         f"Operations of one Jacobian of {name(counts.base)} → {name(counts.tip)}: {counts.joints} joints, "
@@ -50,17 +54,16 @@ def _show(counts: CountTable) -> None:
     )
     rows: list[tuple[object, ...]] = []
     for group in counts.groups:
-        rows.append((group[0].upper() + group[1:], *[""] * 7))
-        rows += [
-            ("  " + r.what, r.frame, *_cells(r.jacobian), *_cells(r.with_pose))
-            for r in counts.of(group)
-        ]
+        rows.append((_title(group), *[""] * 7))
+        for r in counts.of(group):
+            cells = (*_cells(r.jacobian), *_cells(r.with_pose))
+            rows.append(("  " + r.what, r.frame, *cells))
     table(HEADS, rows, left=2)
     say(
         "×: multiplications; +: additions and subtractions; sin/cos: angles of which both are needed; no divisions\n"
     )
     for group in counts.groups:
-        say(f"{group[0].upper() + group[1:]}: {MEANING[group]}")
+        say(f"{_title(group)}: {MEANING[group]}")
     say()
     ideal = counts.idealised
     if ideal is not None:

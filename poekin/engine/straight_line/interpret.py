@@ -37,16 +37,19 @@ def outputs(program: Program, sines: Array, cosines: Array, q: Array) -> Array:
     for number, node in program.steps:
         if node.kind == "input":
             values[number] = _input(int(node.first), sines, cosines, q)
-        elif node.kind == "constant":
+            continue
+        if node.kind == "constant":
             values[number] = node.first
-        elif node.kind == "scaled":
-            values[number] = node.first * values[node.second]
+            continue
+        second = values[node.second]
+        if node.kind == "scaled":
+            values[number] = node.first * second
         elif node.kind == "reciprocal":
-            values[number] = 1.0 / values[node.second]
+            values[number] = 1.0 / second
         elif node.kind == "product":
-            values[number] = values[int(node.first)] * values[node.second]
+            values[number] = values[int(node.first)] * second
         else:
-            values[number] = values[int(node.first)] + node.sign * values[node.second]
+            values[number] = values[int(node.first)] + node.sign * second
     result = np.empty((len(q), len(program.outputs)))
     for column, (number, sign) in zip(result.T, program.outputs, strict=True):
         if number is None:

@@ -153,19 +153,20 @@ class _Function:
             self._extend_block()
             if node.kind == "input":
                 values[number] = self._input(int(node.first))
-            elif node.kind == "constant":
+                continue
+            if node.kind == "constant":
                 values[number] = self._constant(node.first)
-            elif node.kind == "scaled":
+                continue
+            second = values[node.second]
+            if node.kind == "scaled":
                 factor = self._constant(node.first)
-                second = values[node.second]
                 values[number] = build.fmul(factor, second, flags=self.flags)
             elif node.kind == "reciprocal":
                 one = self._constant(1.0)
-                values[number] = build.fdiv(one, values[node.second])
+                values[number] = build.fdiv(one, second)
             else:
                 operation = self._operation(node)
                 first = values[int(node.first)]
-                second = values[node.second]
                 values[number] = operation(first, second, flags=self.flags)
         outputs = [self._output(values, number, sign) for number, sign in program.outputs]
         *_, T, J = self.function.args

@@ -257,7 +257,8 @@ class _Walk:
             )
             return parallel_normal(o, z, p2, z2, x, nothing), z2
         normal = common_normal(o, z, p2, z2)
-        away = max(length(subtract(normal.foot, o)), length(subtract(p2, normal.foot)))
+        foot = normal.foot
+        away = max(length(subtract(foot, o)), length(subtract(p2, foot)))
         if 2 * angle * self.reach <= Decimal(ROUNDOFF) * away:
             self.dropped.append(float(angle))
             self.warnings.append(

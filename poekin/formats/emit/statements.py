@@ -48,13 +48,14 @@ def statements(program: Program, literal: WriteNumber) -> Statements:
             names[number] = literal(node.first)
             constants[number] = node.first
             continue
+        second = names[node.second]
         if node.kind == "scaled":
-            expression = f"{literal(node.first)} * {names[node.second]}"
+            expression = f"{literal(node.first)} * {second}"
         elif node.kind == "reciprocal":
-            expression = f"{literal(1.0)} / {names[node.second]}"
+            expression = f"{literal(1.0)} / {second}"
         else:
             operation = "*" if node.kind == "product" else _OF_SIGN[node.sign]
-            expression = f"{names[int(node.first)]} {operation} {names[node.second]}"
+            expression = f"{names[int(node.first)]} {operation} {second}"
         names[number] = f"v{len(lines)}"
         lines.append((names[number], expression))
     outputs: list[str | float] = []

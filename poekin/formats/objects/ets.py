@@ -137,17 +137,19 @@ class _Tree:
         steps, last = _steps(as_list(link.ets), f"link {safe_repr(link.name)}")
         parent = self.root
         before = self.base
+        identity = np.eye(4)
         if link.parent is not None:
             parent = self.names.get(id(link.parent), str(link.parent))
-            before = np.eye(4)
+            before = identity
+        ends = np.array_equal(last, identity)
         for i, step in enumerate(steps):
             child = own
-            if i < len(steps) - 1 or not np.array_equal(last, np.eye(4)):
+            if i < len(steps) - 1 or not ends:
                 child = free_name(f"{own}_{i}", self.taken)
                 self.links.append(child)
             self._add_joint(step, parent, child, before @ step.origin)
             parent = child
-            before = np.eye(4)
+            before = identity
         if parent != own:
             name = free_name(f"{own}_joint", self.used)
             self.fixed.append(Joint(name, "fixed", parent, own, before @ last))

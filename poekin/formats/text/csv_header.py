@@ -93,9 +93,12 @@ def _heading(word: str, named: Callable[[str], str]) -> Heading:
         return Heading(exact, "")
     for pattern in (_BRACKETS, _SUFFIX):
         found = pattern.fullmatch(word)
-        if found and found[2].strip().lower() in _UNITS:
+        if not found:
+            continue
+        unit = found[2].strip().lower()
+        if unit in _UNITS:
             name = found[1].rstrip()
-            return Heading(named(name) or name, _UNITS[found[2].strip().lower()])
+            return Heading(named(name) or name, _UNITS[unit])
     return Heading(word, "")
 
 

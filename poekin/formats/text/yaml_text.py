@@ -171,8 +171,9 @@ class _Builder:
         elif self.key is None:
             self.key = _key(value, self.open[-1], where)
         else:
-            self.open[-1].items[self.key.text] = value
-            self.open[-1].key_lines[self.key.text] = self.key.line
+            mapping = self.open[-1]
+            mapping.items[self.key.text] = value
+            mapping.key_lines[self.key.text] = self.key.line
             self.key = None
 
 

@@ -101,11 +101,13 @@ def _structure(chain: ChainData) -> Structure:
         step = _step(frame, z, p, slides)
         o = add(frame.o, scale(step.d, frame.z))
         end = frame_on_line(step.x, frame.z, o)
-        joints[-1].along += float(step.d)
-        joints[-1].end(frame, end)
+        last = joints[-1]
+        last.along += float(step.d)
+        last.end(frame, end)
         link = float(step.sine), float(step.cosine), float(step.a), float(step.b)
         joints.append(_Joint(link, step.parallel, step.sign))
-        o = add(o, add(scale(step.a, end.x), scale(step.b, end.y)))
+        o = add(o, scale(step.a, end.x))
+        o = add(o, scale(step.b, end.y))
         frame = frame_on_line(step.x, step.z, o)
     tip = Frame(*map(exact, chain.home[:3].T))
     if joints:
@@ -117,7 +119,8 @@ def _structure(chain: ChainData) -> Structure:
 
 def _step(frame: Frame, z: Vector, p: Vector, slides: bool) -> _Step:
     """To the axis of direction z through p, which is of no matter where the joint only slides."""
-    sine = length(cross(frame.z, z))
+    normal = cross(frame.z, z)
+    sine = length(normal)
     cosine = dot(frame.z, z)
     w = subtract(p, frame.o)
     if sine <= FOLD_TOLERANCE:
@@ -126,29 +129,17 @@ def _step(frame: Frame, z: Vector, p: Vector, slides: bool) -> _Step:
         x = unit(w) if a > FOLD_TOLERANCE else frame.x
         sign = math.copysign(1.0, cosine)
         return _Step(x, frame.z, ZERO, Decimal(1), a, parallel=1, sign=sign)
-    x = unit(cross(frame.z, z))
+    x = unit(normal)
     y = cross(frame.z, x)
     if slides:
         return _Step(x, z, sine, cosine)
     if sine < SLANT:
-        w = subtract(w, scale(dot(w, frame.z) / cosine, z))
-        return _Step(
-            x,
-            z,
-            sine,
-            cosine,
-            a=dot(w, x),
-            b=dot(w, y),
-        )
-    w = subtract(w, scale(dot(w, y) / dot(z, y), z))
-    return _Step(
-        x,
-        z,
-        sine,
-        cosine,
-        a=dot(w, x),
-        d=dot(w, frame.z),
-    )
+        along = dot(w, frame.z) / cosine
+        w = subtract(w, scale(along, z))
+        return _Step(x, z, sine, cosine, a=dot(w, x), b=dot(w, y))
+    along = dot(w, y) / dot(z, y)
+    w = subtract(w, scale(along, z))
+    return _Step(x, z, sine, cosine, a=dot(w, x), d=dot(w, frame.z))
 
 
 def _least_turned(tip: Frame, z: Vector) -> Vector:

@@ -75,17 +75,19 @@ def _options(
     whole = parts.coupling
     followed = whole.coordinate[moving]
     used = list(dict.fromkeys(followed[followed >= 0].tolist()))
-    names = tuple(parts.joints[j].name for j in moving)
+    joints = [parts.joints[j] for j in moving]
+    names = tuple(joint.name for joint in joints)
     q_names = tuple(whole.q_names[k] for k in used)
-    velocities = np.array([parts.joints[j].velocity for j in moving])
+    velocities = np.array([joint.velocity for joint in joints])
+    limits, *_ = shared_limits(whole, parts.bounds, moving)
     options: ChainOptions = {
         "joint_names": names,
         "q_names": q_names,
-        "limits": shared_limits(whole, parts.bounds, moving)[0][used],
+        "limits": limits[used],
         "base": base,
         "tip": tip,
         "velocity_limits": shared_velocity_limits(whole, velocities, moving)[used],
-        "pitches": [parts.joints[j].pitch for j in moving],
+        "pitches": [joint.pitch for joint in joints],
     }
     if names == q_names:
         return options

@@ -150,11 +150,11 @@ def _resolve(
             if joint.kind in MOVING:
                 known[index] = _Value(index, 1.0)
             break
-        if joint.mimic.joint not in numbers:
-            name = joint.mimic.joint
+        name = joint.mimic.joint
+        if name not in numbers:
             close = suggest(name, numbers)
             raise ModelError(f"{where(index)} mimics {quote(name)}, which does not exist; {close}")
-        master = numbers[joint.mimic.joint]
+        master = numbers[name]
         free = joints[master]
         if free.kind in FREE:
             raise ModelError(

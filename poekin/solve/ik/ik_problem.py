@@ -299,9 +299,10 @@ def _rows(restarts: int, iterations: int) -> int:
 
 
 def _check_numbers(settings: Settings) -> None:
+    values = settings._asdict()
     for what in ("tol_position", "tol_rotation"):
-        positive(getattr(settings, what), what)
+        positive(values[what], what)
     for what, least in (("restarts", 0), ("iterations", 1), ("seed", 0)):
-        whole(getattr(settings, what), what, least, KERNEL_INT)
+        whole(values[what], what, least, KERNEL_INT)
     for what in ("limits", "parallel"):
-        true_or_false(getattr(settings, what), what)
+        true_or_false(values[what], what)

@@ -110,23 +110,29 @@ def _misfits_at(chain: ChainData, first: int) -> Iterator[Misfit]:
 def _singular(misfit: Misfit, every: list[Misfit], reach: float) -> bool:
     """Whether four axes meet in one point or are parallel: the arm is singular at every q."""
     family = misfit.family
-    four = [
-        other
-        for other in every
-        if other.family.kind == family.kind and abs(other.family.first - family.first) <= 1
-    ]
-    close = [other.angle + other.distance / reach <= _SINGULAR for other in four]
-    return misfit.angle + misfit.distance / reach <= _SINGULAR and sum(close) > 1
+    four = []
+    for other in every:
+        beside = abs(other.family.first - family.first) <= 1
+        if beside and other.family.kind == family.kind:
+            four.append(other)
+    close = [_miss(other, reach) <= _SINGULAR for other in four]
+    return _miss(misfit, reach) <= _SINGULAR and sum(close) > 1
+
+
+def _miss(misfit: Misfit, reach: float) -> float:
+    """Angle, and distance in reaches, by which a family is missed."""
+    return misfit.angle + misfit.distance / reach
 
 
 def _rank(family: Family, n: int) -> int:
     """Order of families: what is cheaper to solve has less."""
     outer = family.first in (0, n - 3)
+    rank = 6
     if family.kind == "meeting" and outer:
-        return int(family.reversed)
-    if family.kind == "parallel":
-        return 2 + int(outer) * 2 + int(family.reversed)
-    return 6 + int(family.reversed)
+        rank = 0
+    elif family.kind == "parallel":
+        rank = 4 if outer else 2
+    return rank + int(family.reversed)
 
 
 def meeting_point(screws: Array) -> Array:

@@ -120,16 +120,20 @@ def simplest(
     end = time.monotonic() + SHRINKING
 
     def fails(other: Case) -> bool:
-        return (
-            time.monotonic() < end
-            and law.check(subject, rounded(law, subject, other)).manner == verdict.manner
-        )
+        if time.monotonic() >= end:
+            return False
+        return law.check(subject, rounded(law, subject, other)).manner == verdict.manner
 
     own = law._replace(allowed=lambda other: law.allowed(other) and law.about(other))
+
+    def smallest() -> Case:
+        first = shrunk(own, case, fails)
+        return rounded(law, subject, shrunk(law, first, fails))
+
     if not verdict.fault.startswith(UNANSWERED):
-        return rounded(law, subject, shrunk(law, shrunk(own, case, fails), fails))
+        return smallest()
     with subject.own.within(SHORT):
-        small = rounded(law, subject, shrunk(law, shrunk(own, case, fails), fails))
+        small = smallest()
     # What takes longer than that may still be answered.
     if law.check(subject, small).manner == verdict.manner:
         return small

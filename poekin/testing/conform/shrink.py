@@ -68,19 +68,20 @@ def _smaller(law: SubjectLaw, case: Case) -> Iterator[Case]:
         for k in np.flatnonzero(x).tolist()
         if not any(start <= k < start + 3 for start in directions)
     ]
-    starts = [k for k in law.triples(case) if np.any(x[k : k + 3])]
-    for k in starts:  # a whole vector away
+    vectors = {k: x[k : k + 3] for k in law.triples(case)}
+    vectors = {k: vector for k, vector in vectors.items() if np.any(vector)}
+    for k in vectors:  # a whole vector away
         yield _with(case, k, np.zeros(3))
     for k in own:
         yield _with(case, k, 0.0)
     for k in directions:
         for direction in _simpler_directions(x[k : k + 3]):
             yield _with(case, k, direction)
-    for k in starts:  # a vector along an axis
-        length = math.hypot(*x[k : k + 3])
+    for k, vector in vectors.items():  # a vector along an axis
+        length = math.hypot(*vector)
         for value in (length, *_rounder(length)):
-            for axis in range(3):
-                yield _with(case, k, value * np.eye(3)[axis])
+            for axis in np.eye(3):
+                yield _with(case, k, value * axis)
     for k in own:
         for value in _rounder(float(x[k])):
             yield _with(case, k, value)
@@ -93,17 +94,19 @@ def _simpler_directions(n: np.ndarray) -> Iterator[np.ndarray]:
     for sign in (1.0, -1.0):
         yield from sign * np.eye(3)
     yield from map(np.array, itertools.permutations((0.6, 0.8, 0.0)))
+    numbers = np.arange(3)
     largest = int(np.argmax(np.abs(n)))
     for k in np.flatnonzero(n).tolist():
         if k == largest:
             continue
-        less = np.where(np.arange(3) == k, 0.0, n)
+        here = numbers == k
+        less = np.where(here, 0.0, n)
         yield less / math.hypot(*less)
         tilt = float(n[k])
         if abs(tilt) < 1e-4:  # the length stays 1 to rounding
             for value in (_power_of_10(tilt), abs(tilt)):
-                yield np.where(np.arange(3) == k, value, n)
-    yield np.where(np.arange(3) == largest, 1.0, n)
+                yield np.where(here, value, n)
+    yield np.where(numbers == largest, 1.0, n)
 
 
 def _rounder(value: float) -> Iterator[float]:

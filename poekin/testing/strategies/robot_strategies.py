@@ -163,7 +163,8 @@ def _robot(
         if row.kind == "helical":
             joint = replace(joint, pitch=row.pitch)
         joints.append(joint)
-    order = sorted(range(len(rows)), key=lambda k: rows[k].rank)
+    numbers = range(len(rows))
+    order = sorted(numbers, key=lambda k: rows[k].rank)
     kinds = (*MOVING, "fixed") if still else MOVING
     able = [k for k in order if joints[k].kind in kinds]
     for place, k in enumerate(able):
@@ -175,10 +176,11 @@ def _robot(
             joints[k] = replace(joints[k], mimic=mimic)
     if limits:
         joints = _limited(joints, rows, order)
-    of_links = sorted(range(len(rows)), key=lambda k: rows[k].places[0])
+    of_links = sorted(numbers, key=lambda k: rows[k].places[0])
     links = [f"l{k + 1}" for k in of_links]
-    links.insert(rows[0].places[2] * len(links) // 256 if rows else 0, "l0")
-    of_joints = sorted(range(len(rows)), key=lambda k: rows[k].places[1])
+    root = rows[0].places[2] * len(links) // 256 if rows else 0
+    links.insert(root, "l0")
+    of_joints = sorted(numbers, key=lambda k: rows[k].places[1])
     return Robot("robot", links, [joints[k] for k in of_joints])
 
 

@@ -77,9 +77,11 @@ def _widest(found: Calibration) -> Array | None:
     """The measured configuration, of some, at which the arm reaches farthest; None where there is none."""
     if found.vectors is None or not len(found.vectors.q):
         return None
-    q = found.vectors.q[evenly(len(found.vectors.q), MOST)]
+    q = found.vectors.q
+    some = q[evenly(len(q), MOST)]
     arm = chain_geometry(found.nominal)
-    return q[np.argmax([arm_size(arm, row) for row in q])]
+    sizes = [arm_size(arm, row) for row in some]
+    return some[np.argmax(sizes)]
 
 
 def correction_table(found: Calibration) -> PageTable:

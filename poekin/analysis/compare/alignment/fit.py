@@ -122,9 +122,8 @@ def _linearised(
         base[:, behind] = carried
         in_front = screws[:, :k].swapaxes(1, 2)
         columns[:, behind, :, :k] = carried @ in_front[:, None]
-    in_front = np.tri(pair.n, k=-1, dtype=bool)
-    moved = free[:, None] & in_front
-    moved = free[:, None] & np.tri(pair.n, k=-1, dtype=bool)
+    earlier = np.tri(pair.n, k=-1, dtype=bool)
+    moved = free[:, None] & earlier
     columns *= moved[:, :, None]
     J = np.concatenate([base, columns], axis=3)
     J *= used[..., None, None]

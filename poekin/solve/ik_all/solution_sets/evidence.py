@@ -79,23 +79,25 @@ class Evidence:
         if not self.finite[k]:
             return BAD_TARGET
         said = self._number(k)
-        if self.within[k] != self.found[k]:
+        found = self.found[k]
+        if self.within[k] != found:
             said += f", {self.within[k]} of them within the limits"
         if not self.restarts[k] and self.solver is not None:
             return f"{said}: {self.solver.said}"
         said += f": search, {self.restarts[k]} tries"
-        if not self.found[k] or k in self.self_motion or self.full[k]:
+        if not found or k in self.self_motion or self.full[k]:
             return said
-        if np.isnan(self.p_missing[k]):
+        p_missing = self.p_missing[k]
+        if np.isnan(p_missing):
             return f"{said}; at some values it is not known whether one is missing"
         said += f", each found {int(self.least_hits[k])} times or more; "
         if self.sampling is not None:
-            return f"{said}one is missing with a chance of {self.p_missing[k]:.1g}"
+            return f"{said}one is missing with a chance of {p_missing:.1g}"
         said += (
             "one that is half as easy to find as the rarest is missing with a chance of "
-            f"{self.p_missing[k]:.1g}"
+            f"{p_missing:.1g}"
         )
-        if self.found[k] % 2 == 1 and self.free == 6:
+        if found % 2 == 1 and self.free == 6:
             said += "; the number is odd: one of them is a double one, or one is missing"
         return said
 

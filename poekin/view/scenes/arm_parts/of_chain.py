@@ -30,7 +30,8 @@ def chain_geometry(chain: Chain) -> ArmGeometry:
         moved = chain.joint_poses(q) @ back
         return np.concatenate([np.eye(4)[None], moved])
 
-    places = np.array([np.zeros(3), *translation_part(rest), translation_part(tool)])
+    origins = [np.zeros(3), *translation_part(rest), translation_part(tool)]
+    places = np.array(origins)
     frames = [LinkFrame(0, np.eye(4), chain.base, "end")]
     frames += [LinkFrame(k + 1, rest[k], joints[k].name, "link") for k in range(n)]
     return ArmGeometry(
@@ -48,22 +49,25 @@ def _joints(chain: Chain, rest: Array) -> tuple[JointGeometry, ...]:
     """Joints whose axes are given by the z axes of the local frames (n, 4, 4) at q = 0."""
     screws = uncoupled_at_zero(chain).screws
     limits = own_limits(chain).tolist()
-    return tuple(
-        JointGeometry(
+    points = translation_part(rest)
+    joints = []
+    for k, name in enumerate(chain.joint_names):
+        direction = rest[k, :3, 2]
+        joint = JointGeometry(
             name=name,
             kind=chain.kinds[k],
             parent=k,
             child=k + 1,
-            point=translation_part(rest[k]),
-            direction=rest[k, :3, 2],
-            child_point=translation_part(rest[k]),
-            child_direction=rest[k, :3, 2],
+            point=points[k],
+            direction=direction,
+            child_point=points[k],
+            child_direction=direction,
             pitch=float(chain.pitches[k]),
             limits=tuple(limits[k]),
             screw=screws[k],
         )
-        for k, name in enumerate(chain.joint_names)
-    )
+        joints.append(joint)
+    return tuple(joints)
 
 
 def _sliders(chain: Chain) -> tuple[Slider, ...]:
