@@ -25,12 +25,14 @@ def random(
     rng = np.random.default_rng(rng)
     size = (size,) if isinstance(size, (int, np.integer)) else tuple(size)
     low, high = sampling_range(chain)
-    q = low + (high - low) * rng.random((*size, chain.dof))
+    width = high - low
+    q = low + width * rng.random((*size, chain.dof))
     for _ in range(DRAWS):
         beyond = beyond_own_limits(chain, q).any(axis=-1)
         if not beyond.any():
             return q
-        q[beyond] = low + (high - low) * rng.random((np.count_nonzero(beyond), chain.dof))
+        count = np.count_nonzero(beyond)
+        q[beyond] = low + width * rng.random((count, chain.dof))
     raise InputError(
         f"random: of {DRAWS} draws within the coordinates' limits, none keeps the joints within "
         "their own: joint_limits"
@@ -43,8 +45,10 @@ def sampling_range(chain: ChainData) -> tuple[Array, Array]:
     lower, upper = chain.limits.T
     has_lower = np.isfinite(lower)
     has_upper = np.isfinite(upper)
-    low = np.where(has_lower, lower, np.where(has_upper, upper - 2 * half, -half))
-    high = np.where(has_upper, upper, np.where(has_lower, lower + 2 * half, half))
+    lowest = np.where(has_upper, upper - 2 * half, -half)
+    highest = np.where(has_lower, lower + 2 * half, half)
+    low = np.where(has_lower, lower, lowest)
+    high = np.where(has_upper, upper, highest)
     _move_to_joint_limits(chain, low, high)
     return low, high
 
@@ -55,7 +59,8 @@ def largest_slides(chain: ChainData) -> Array:
     C = chain.coupling
     middle = low / 2 + high / 2
     half = high / 2 - low / 2
-    farthest = np.abs(C @ middle + chain.offset) + np.abs(C) @ half
+    farthest = np.abs(C @ middle + chain.offset)
+    farthest += np.abs(C) @ half
     return np.abs(chain.local.slides) * farthest
 
 
@@ -70,10 +75,12 @@ def _move_to_joint_limits(chain: ChainData, low: Array, high: Array) -> None:
     free = np.isinf(chain.limits).all(axis=1)
     shared = np.count_nonzero(C[limited], axis=0)
     for j in np.flatnonzero(limited):
-        (ends,) = sum_limits(C[j : j + 1], np.stack([low, high], axis=1)) + chain.offset[j]
-        middle = chain.joint_limits[j].mean()
+        ranges = np.stack([low, high], axis=1)
+        (ends,) = sum_limits(C[j : j + 1], ranges) + chain.offset[j]
+        own = chain.joint_limits[j]
+        middle = own.mean()
         if np.isinf(middle):
-            middle = np.clip(ends.mean(), *chain.joint_limits[j])
+            middle = np.clip(ends.mean(), *own)
         moving = np.flatnonzero(free & (C[j] != 0))
         if len(moving) and not ends[0] <= middle <= ends[1]:
             k = moving[np.argmin(shared[moving])]
@@ -86,7 +93,8 @@ def half_range(chain: ChainData) -> Array:
     """Greatest value (m,) that `random` draws of coordinates without limits; the least is its
     opposite.
     """
-    return np.where(angle_mask(chain), np.pi, 1.0) / joint_ratios(chain)
+    ranges = np.where(angle_mask(chain), np.pi, 1.0)
+    return ranges / joint_ratios(chain)
 
 
 def radians_per_unit(chain: ChainData) -> Array:
@@ -98,7 +106,8 @@ def radians_per_unit(chain: ChainData) -> Array:
 
 def angle_mask(chain: ChainData) -> NDArray[np.bool_]:
     """Whether each coordinate (m,) is an angle."""
-    return np.array([chain.is_angle(k) for k in range(chain.dof)], bool)
+    coordinates = range(chain.dof)
+    return np.array([chain.is_angle(k) for k in coordinates], bool)
 
 
 def joint_ratios(chain: ChainData) -> Array:
@@ -118,5 +127,6 @@ def dominant_ratios(chain: ChainData) -> Array:
     for k, is_angle in enumerate(angle_mask(chain)):
         ratios = C[slides != is_angle, k]
         if ratios.any():
-            found[k] = ratios[np.argmax(np.abs(ratios))]
+            largest = np.argmax(np.abs(ratios))
+            found[k] = ratios[largest]
     return found

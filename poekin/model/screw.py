@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, ScrewError
 from ..groups.arrays import Array, element_name, shaped
-from ..groups.vectors import angular_part, linear_part, norm
+from ..groups.vectors import angular_part, linear_part, norm, norms
 from .checks import finite
 from .screw_rows.remedies import ROUNDED, UNIT
 from .screw_rows.unit_screws import pitch_of, unit_screws, with_pitches
@@ -120,7 +120,8 @@ def helical(axis: ArrayLike, point: ArrayLike, pitch: float) -> Array:
         )
     # The cross product with a far point has the rounding of that distance along z too, which would
     # pass for a pitch.
-    (S,) = with_pitches(np.concatenate([z, np.cross(p, z)])[None], np.zeros(1))
+    S = np.concatenate([z, np.cross(p, z)])
+    (S,) = with_pitches(S[None], np.zeros(1))
     S[3:] += h * z
     return S
 
@@ -191,10 +192,12 @@ def axis_of(screw: ArrayLike) -> Axis:
     >>> print(axis.direction, axis.point + 0.0, axis.pitch)
     [0. 0. 1.] [0.5 0.  0. ] 0.1
     """
-    S = unit_screws(shaped(screw, (6,), "screw")[None])[0]
-    if not angular_part(S).any():
-        return Axis(linear_part(S), None, np.inf)
-    return Axis(angular_part(S), np.cross(angular_part(S), linear_part(S)), pitch_of(S))
+    (S,) = unit_screws(shaped(screw, (6,), "screw")[None])
+    w = angular_part(S)
+    v = linear_part(S)
+    if not w.any():
+        return Axis(v, None, np.inf)
+    return Axis(w, np.cross(w, v), pitch_of(S))
 
 
 def normalised(screws: ArrayLike, tolerance: float = ROUNDED) -> Array:
@@ -237,11 +240,13 @@ def normalised(screws: ArrayLike, tolerance: float = ROUNDED) -> Array:
     >>> print(S[:3].round(6))
     [0.       0.500011 0.866019]
     """
-    S = shaped(finite(screws, "screws"), (6,), "screws").copy()
-    turns = np.linalg.norm(angular_part(S), axis=-1, keepdims=True)
+    given = finite(screws, "screws")
+    S = shaped(given, (6,), "screws").copy()
+    turns = norms(angular_part(S))[..., None]
     sliding = turns <= UNIT
     S[..., :3] *= ~sliding
-    lengths = np.where(sliding, np.linalg.norm(linear_part(S), axis=-1, keepdims=True), turns)
+    speeds = norms(linear_part(S))[..., None]
+    lengths = np.where(sliding, speeds, turns)
     far = np.argwhere(np.abs(lengths - 1.0) > tolerance)
     if len(far):
         where = element_name("screws", far[0][:-1])
@@ -256,7 +261,8 @@ def _unit(axis: ArrayLike) -> Array:
     z = shaped(axis, (3,), "axis")
     if z.ndim != 1 or not np.isfinite(z).all():
         raise InputError(f"axis: expected one finite vector (3,), got {z.tolist()}")
-    z = z / max(np.abs(z).max(), np.finfo(float).tiny)
+    largest = max(np.abs(z).max(), np.finfo(float).tiny)
+    z = z / largest
     length = norm(z)
     if length == 0:
         raise ScrewError("axis: expected a direction, got the zero vector")

@@ -29,7 +29,8 @@ class LazySequence(Sequence, Generic[Item]):
     def __getitem__(self, index: slice) -> list[Item]: ...
     def __getitem__(self, index: Any) -> Any:
         if isinstance(index, slice):
-            return [self._make(k) for k in range(*index.indices(self._length))]
+            chosen = range(*index.indices(self._length))
+            return [self._make(k) for k in chosen]
         k = operator.index(index)
         if not -self._length <= k < self._length:
             raise IndexError(f"index {k} is out of bounds for {self._length} targets")
@@ -53,7 +54,8 @@ class Ragged(LazySequence[Array]):
     def __init__(self, rows: np.ndarray, counts: np.ndarray) -> None:
         super().__init__(len(counts), self._part)
         self.rows = rows
-        self.ends = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
+        self.ends = np.zeros(len(counts) + 1, np.intp)
+        np.cumsum(counts, out=self.ends[1:])
 
     @property
     def counts(self) -> np.ndarray:
@@ -69,23 +71,29 @@ class Ragged(LazySequence[Array]):
         """All items in one array (N, most, ...), filled up to as many rows of each."""
         counts = self.counts
         most = int(counts.max(initial=0))
-        whole = np.full((len(self), most, *self.rows.shape[1:]), fill, self.rows.dtype)
-        whole[np.arange(most) < counts[:, None]] = self.rows
+        rows = self.rows
+        shape = (len(self), most, *rows.shape[1:])
+        whole = np.full(shape, fill, rows.dtype)
+        there = np.arange(most) < counts[:, None]
+        whole[there] = rows
         return whole
 
     def part(self, first: int, end: int) -> Ragged:
         """The items from number `first` to `end`, without it."""
         ends = self.ends[first : end + 1]
-        return Ragged(self.rows[ends[0] : ends[-1]], np.diff(ends))
+        rows = slice(ends[0], ends[-1])
+        return Ragged(self.rows[rows], np.diff(ends))
 
     def chosen(self, numbers: np.ndarray) -> Ragged:
         """The items of these numbers, in order."""
         wanted = np.zeros(len(self), bool)
         wanted[numbers] = True
-        return Ragged(self.rows[wanted[self.owner]], self.counts[numbers])
+        rows = self.rows[wanted[self.owner]]
+        return Ragged(rows, self.counts[numbers])
 
     def _part(self, k: int) -> Array:
-        return self.rows[self.ends[k] : self.ends[k + 1]]
+        start, end = self.ends[k : k + 2]
+        return self.rows[start:end]
 
     def __repr__(self) -> str:
         return f"<Ragged of {len(self)}: lengths {np.array2string(self.counts, threshold=8)}>"

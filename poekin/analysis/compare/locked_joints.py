@@ -96,13 +96,15 @@ def held_positions(
     unit = 1.0 / size
     ours = lines(rescaled(long, unit))
     theirs = lines(rescaled(short, unit))
-    front = _side(ours, reversed(range(run[0])), gone)
+    before = reversed(range(run[0]))
+    front = _side(ours, before, gone)
     beyond = range(run[-1] + 1, len(ours.kinds))
     behind = _side(ours, beyond, gone)
     both = front + behind
     wanted = {j: theirs.axes[index_without(gone, j)] for j in both}
     tried: list[tuple[float, Array]] = []
-    for signs in product((1.0, -1.0), repeat=len(both) - 1):
+    others = product((1.0, -1.0), repeat=len(both) - 1)
+    for signs in others:
         ways = zip(both, (1.0, *signs), strict=True)
         signed = {j: way * wanted[j] for j, way in ways}
         relations = _relations(ours, front, behind, signed)
@@ -121,7 +123,8 @@ def held_positions(
         if miss > most or len(found) == MOST:
             break
         x = wrapped(values, ours.revolute[joints])
-        if all(abs(x - other).max() > tol.rotation for other in found):
+        apart = (abs(x - other).max() for other in found)
+        if all(size > tol.rotation for size in apart):
             found.append(x)
     return [tuple(map(float, units * x)) for x in found]
 
@@ -152,7 +155,8 @@ def _side(
 def _starts(ours: Lines, run: Sequence[int]) -> Array:
     """Starts (m, r) of the joints' positions."""
     turn = 2.0 * np.pi * np.arange(TURN) / TURN
-    first = 2.0 * np.pi * (np.arange(TURNS) - TURNS / 2.0)
+    middle = TURNS / 2.0
+    first = 2.0 * np.pi * (np.arange(TURNS) - middle)
     values = {
         "revolute": turn,
         "helical": (turn + first[:, None]).ravel(),
@@ -179,7 +183,8 @@ def _relations(
         f = front[-1]
         g = behind[-1]
         last = len(behind) - 1
-        relations.append(_apart(ours.axes[f], wanted[f], wanted[g], last))
+        apart = _apart(ours.axes[f], wanted[f], wanted[g], last)
+        relations.append(apart)
     return relations
 
 
@@ -248,13 +253,15 @@ def _misfit(
     Ad = se3.adjoint(T)
     axes = ours.axes[behind] @ Ad.swapaxes(1, 2)
     # d Ad(e^{S x}) A = ad(S) A dx.
-    by_joint = [axes @ se3.ad(S).swapaxes(1, 2) for S in screws]
+    brackets = [se3.ad(S) for S in screws]
+    by_joint = [axes @ bracket.swapaxes(1, 2) for bracket in brackets]
     changes = np.stack(by_joint, axis=-1)
     r = []
     J = []
     for relation in relations:
         k = relation.place
-        residuals, derivatives = relation.misfit(axes[:, k], changes[:, k])
+        own = axes[:, k]
+        residuals, derivatives = relation.misfit(own, changes[:, k])
         r.append(residuals)
         J.append(derivatives)
     return np.concatenate(r, 1), np.concatenate(J, 1)
@@ -266,6 +273,7 @@ def _step(r: Array, J: Array) -> Array:
     normal = transposed @ J
     size = np.trace(normal, axis1=1, axis2=2)
     damping = (r * r).sum(1) + 1e-14 * size + 1e-30
-    damped = normal + damping[:, None, None] * np.eye(J.shape[2])
+    identity = np.eye(J.shape[2])
+    damped = normal + damping[:, None, None] * identity
     downhill = transposed @ -r[..., None]
     return np.linalg.solve(damped, downhill)[..., 0]

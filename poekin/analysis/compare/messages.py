@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ..amounts import amount, joint_unit
+from ..amounts import Unit, amount, joint_unit
 from ..axis_lines import Tolerances
 from .alignment.diagnosis import AlignedTo
 from .alignment.hypotheses import Hypothesis, motion_sizes, still
@@ -204,7 +204,7 @@ def equivalents(
     """
     said = []
     names = list(map(quote, a.joint_names))
-    units = [joint_unit(kind) for kind in b.kinds]
+    units: list[Unit] = [joint_unit(kind) for kind in b.kinds]
     for frame, k, z in end_turns(a, b, first, tol):
         far = amount(z, units[k])
         said.append(

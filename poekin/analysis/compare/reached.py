@@ -42,19 +42,22 @@ def poses_agree(
     """
     moved, turned = _sampled(a, b, reading)
     most = _bounds(pair, a, b)
-    return bool(moved.max() <= most.position and turned.max() <= most.rotation)
+    near_enough = moved.max() <= most.position
+    return bool(near_enough and turned.max() <= most.rotation)
 
 
 def near(a: Chain, b: Chain, reading: Hypothesis) -> bool:
     """Whether poses under a reading differ as those of one arm do, whichever comes first."""
     moved, turned = _sampled(a, b, reading)
-    errors = moved.max() / max(a.reach, b.reach) + turned.max() / np.pi
+    reach = max(a.reach, b.reach)
+    errors = moved.max() / reach + turned.max() / np.pi
     return bool(errors <= ONE_ARM)
 
 
 def _sampled(a: Chain, b: Chain, reading: Hypothesis) -> tuple[Array, Array]:
     """Differences of poses under a reading, within the limits of either arm."""
-    theirs = reading.directions * (b.random(0, SAMPLES) - reading.zeros)
+    x_b = b.random(0, SAMPLES)
+    theirs = reading.directions * (x_b - reading.zeros)
     x = np.concatenate([a.random(0, SAMPLES), theirs])
     return pose_differences(a.fk(x), reading.poses(b, x))
 

@@ -73,7 +73,8 @@ class _RowsModel(models.PrimitiveModel):
 @register_model(LaneTable)
 class _TableModel(models.StructModel):
     def __init__(self, manager, type_):
-        super().__init__(manager, type_, [("first", _ROWS), ("width", types.intp)])
+        members = [("first", _ROWS), ("width", types.intp)]
+        super().__init__(manager, type_, members)
 
 
 def _vector(context, builder, value, kind):
@@ -83,7 +84,8 @@ def _vector(context, builder, value, kind):
     number = context.cast(builder, value, kind, types.float64)
     empty = ir.Constant(_VECTOR, ir.Undefined)
     index = ir.IntType(32)
-    one = builder.insert_element(empty, number, ir.Constant(index, 0))
+    first = ir.Constant(index, 0)
+    one = builder.insert_element(empty, number, first)
     mask = ir.Constant(ir.VectorType(index, _COUNT), [0] * _COUNT)
     return builder.shuffle_vector(one, empty, mask)
 
@@ -182,7 +184,8 @@ def _negative(a):
 def _where_less(typingctx, a, b, x, y):
     def generate(context, builder, signature, arguments):
         a, b, x, y = _vectors(context, builder, signature, arguments)
-        return builder.select(builder.fcmp_ordered("<", a, b), x, y)
+        less = builder.fcmp_ordered("<", a, b)
+        return builder.select(less, x, y)
 
     return _LANES(a, b, x, y), generate
 
@@ -194,10 +197,21 @@ def _chosen(a, b, x, y):
     return elementary.where_less
 
 
+def _struct(context, builder, signature, arguments):
+    """The array that is the first argument."""
+    make = context.make_array(signature.args[0])
+    return make(context, builder, arguments[0])
+
+
+def _index(context, builder, signature, arguments):
+    """The second argument as an index."""
+    return context.cast(builder, arguments[1], signature.args[1], types.intp)
+
+
 @intrinsic
 def _of_array(typingctx, array):
     def generate(context, builder, signature, arguments):
-        struct = context.make_array(signature.args[0])(context, builder, arguments[0])
+        struct = _struct(context, builder, signature, arguments)
         return builder.bitcast(struct.data, _VECTOR.as_pointer())
 
     return _ROWS(array), generate
@@ -206,11 +220,12 @@ def _of_array(typingctx, array):
 @intrinsic
 def _of_matrix(typingctx, array):
     def generate(context, builder, signature, arguments):
-        struct = context.make_array(signature.args[0])(context, builder, arguments[0])
+        struct = _struct(context, builder, signature, arguments)
         table = cgutils.create_struct_proxy(_TABLE)(context, builder)
         table.first = builder.bitcast(struct.data, _VECTOR.as_pointer())
         count = context.get_constant(types.intp, _COUNT)
-        table.width = builder.sdiv(cgutils.unpack_tuple(builder, struct.shape)[1], count)
+        _, columns = cgutils.unpack_tuple(builder, struct.shape)
+        table.width = builder.sdiv(columns, count)
         return table._getvalue()
 
     return _TABLE(array), generate
@@ -220,8 +235,9 @@ def _of_matrix(typingctx, array):
 def _row(typingctx, table, k):
     def generate(context, builder, signature, arguments):
         whole = cgutils.create_struct_proxy(_TABLE)(context, builder, arguments[0])
-        k = context.cast(builder, arguments[1], signature.args[1], types.intp)
-        return builder.gep(whole.first, [builder.mul(k, whole.width)])
+        k = _index(context, builder, signature, arguments)
+        start = builder.mul(k, whole.width)
+        return builder.gep(whole.first, [start])
 
     return _ROWS(table, k), generate
 
@@ -233,8 +249,9 @@ _ALIGNED = 8
 @intrinsic
 def _loaded(typingctx, rows, k):
     def generate(context, builder, signature, arguments):
-        k = context.cast(builder, arguments[1], signature.args[1], types.intp)
-        return builder.load(builder.gep(arguments[0], [k]), align=_ALIGNED)
+        k = _index(context, builder, signature, arguments)
+        place = builder.gep(arguments[0], [k])
+        return builder.load(place, align=_ALIGNED)
 
     return _LANES(rows, k), generate
 
@@ -242,9 +259,10 @@ def _loaded(typingctx, rows, k):
 @intrinsic
 def _stored(typingctx, rows, k, x):
     def generate(context, builder, signature, arguments):
-        k = context.cast(builder, arguments[1], signature.args[1], types.intp)
+        k = _index(context, builder, signature, arguments)
         value = _vector(context, builder, arguments[2], signature.args[2])
-        builder.store(value, builder.gep(arguments[0], [k]), align=_ALIGNED)
+        place = builder.gep(arguments[0], [k])
+        builder.store(value, place, align=_ALIGNED)
         return context.get_dummy_value()
 
     return types.none(rows, k, x), generate

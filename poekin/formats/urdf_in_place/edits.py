@@ -81,17 +81,19 @@ def apply_edits(content: bytes, edits: Sequence[Edit]) -> bytes:
 def _origin(text: JointText, new: Array, still: Still) -> Iterator[Numbers]:
     """Attributes of a joint's <origin> that change, with their numbers."""
     old = text.joint.origin
-    if _apart(translation_part(new), translation_part(old)) > still.length:
-        yield Numbers(
-            "xyz", translation_part(new).tolist(), translation_part(old).tolist(), still.length
-        )
+    xyz = translation_part(new)
+    old_xyz = translation_part(old)
+    if _apart(xyz, old_xyz) > still.length:
+        yield Numbers("xyz", xyz.tolist(), old_xyz.tolist(), still.length)
     if _apart(rotation_part(new), rotation_part(old)) <= still.angle:
         return
     tag = text.span.tags.get("origin")
     written = {} if tag is None else tag.attributes
     if text.quaternions and "quat_xyzw" in written:
-        was = [float(x) for x in written["quat_xyzw"].value.split()]
-        quaternion = pose_rows.to_rows(new[None], layout("ros"))[0, 3:]
+        words = written["quat_xyzw"].value.split()
+        was = [float(word) for word in words]
+        (row,) = pose_rows.to_rows(new[None], layout("ros"))
+        quaternion = row[3:]
         if quaternion @ was < 0:
             quaternion = -quaternion
         yield Numbers("quat_xyzw", quaternion.tolist(), was, still.angle)

@@ -75,17 +75,20 @@ class Walk:
         self.given = [BASE]
         self.exact = [BASE]
         for S, kind in zip(chain.screws, chain.kinds, strict=True):
-            self._step(*axis_near(S, kind == "prismatic", self.given[-1].o))
+            last = self.given[-1].o
+            self._step(*axis_near(S, kind == "prismatic", last))
         x = exact(chain.home[:3, 0])
         z = unit(exact(chain.home[:3, 2]))
         p = exact(translation_part(chain.home))
-        self._step(z, nearest_on_line(p, z, self.given[-1].o))
+        foot = nearest_on_line(p, z, self.given[-1].o)
+        self._step(z, foot)
         self._end(frame_on_line(unit(across(x, z)), z, p))
 
     def _step(self, z: Vector, p: Vector) -> None:
         """To the next line, of direction z through p, its point nearest to the last frame's origin."""
         slant = length(cross(self.given[-1].z, z))
-        given, exact = self._aside(z, p) if slant < SLANT else self._across(z, p)
+        step = self._aside if slant < SLANT else self._across
+        given, exact = step(z, p)
         self.given.append(given)
         self.exact.append(exact)
 
@@ -117,8 +120,10 @@ class Walk:
             scale(alpha.cosine, new.z),
             scale(alpha.sine, cross(turned, new.z)),
         )
-        origin = add(new.o, add(scale(d, new.z), scale(a, turned)))
-        given = frame_on_line(x, z, add(normal.foot, scale(normal.a, x)))
+        way = add(scale(d, new.z), scale(a, turned))
+        origin = add(new.o, way)
+        meeting = add(normal.foot, scale(normal.a, x))
+        given = frame_on_line(x, z, meeting)
         return given, frame_on_line(turned, up, origin)
 
     def _aside(self, z: Vector, p: Vector) -> tuple[Frame, Frame]:
@@ -133,14 +138,16 @@ class Walk:
         if straight:
             parallel = f"to be parallel to {before}"
         u, v = self._zeros(u, v, ROUNDING, f"{name} turned by {{0:.3g}} rad {parallel}")
-        up = new.out((u, v, (1 - u * u - v * v).sqrt().copy_sign(w)))
+        w_exact = (1 - u * u - v * v).sqrt()
+        up = new.out((u, v, w_exact.copy_sign(w)))
         x, y, _ = given.of(subtract(p, last.o))
         line = f"into a plane of the frame on {before}"
         if straight and self._is_zero(x) and self._is_zero(y):
             line = f"to be one line with {before}"
         x, y = self._zeros(x, y, self.noise, f"{name} moved by {{0:.3g}} m {line}")
         turned = unit(across(new.x, up))
-        origin = add(new.o, add(scale(x, turned), scale(y, cross(up, turned))))
+        aside = scale(y, cross(up, turned))
+        origin = add(new.o, add(scale(x, turned), aside))
         return given, frame_on_line(turned, up, origin)
 
     def _end(self, tool: Frame) -> None:
@@ -159,11 +166,13 @@ class Walk:
         )
         x = new.out((theta.cosine, theta.sine, ZERO))
         self.given[-1] = tool
-        self.exact[-1] = frame_on_line(x, new.z, add(new.o, scale(d, new.z)))
+        origin = add(new.o, scale(d, new.z))
+        self.exact[-1] = frame_on_line(x, new.z, origin)
 
     def _lines(self) -> list[str]:
         """Names of the last line and of the next."""
-        return self.names[len(self.given) - 1 : len(self.given) + 1]
+        count = len(self.given)
+        return self.names[count - 1 : count + 1]
 
     def _is_zero(self, value: Decimal) -> bool:
         return abs(value) <= self.tol
@@ -179,7 +188,8 @@ class Walk:
         words: str,
     ) -> tuple[Decimal, Decimal]:
         """Each made 0 where it is within the tolerance."""
-        a, b = (ZERO if self._is_zero(value) else value for value in (x, y))
+        a = ZERO if self._is_zero(x) else x
+        b = ZERO if self._is_zero(y) else y
         self._changed(math.hypot(x - a, y - b), noise, words)
         return a, b
 
@@ -189,7 +199,8 @@ class Walk:
         """
         k = round(math.atan2(s, c) / (math.pi / 12))
         turn = Turn(_cosine(k), _cosine(k - 6))
-        off = abs(math.asin(s * turn.cosine - c * turn.sine))
+        sine_off = s * turn.cosine - c * turn.sine
+        off = abs(math.asin(sine_off))
         if off > self.tol:
             return Turn(c, s)
         degrees = 180 - (180 - 15 * k) % 360

@@ -25,7 +25,7 @@ from .normals import (
     length,
     nearest_on_line,
 )
-from .other_frames import rezeroed
+from .other_frames import without_offset
 
 MEETING = Decimal("1e-14")
 """Axes meet that pass each other within this many times the chain's reach, the rounding of their
@@ -69,8 +69,7 @@ def to_hp(chain: ChainData) -> HPForm:
             f"to_hp: expected one coordinate a joint, the {len(chain.kinds)} joints of {quote(chain.base)} -> "
             f"{quote(chain.tip)} are coupled to {chain.dof} coordinates"
         )
-    if chain.offset.any():
-        chain = rezeroed(chain.replace(offset=np.zeros(chain.dof)), chain.offset)
+    chain = without_offset(chain)
     with digits():
         points = [BASE.o, *_points(chain), exact(translation_part(chain.home))]
         steps = [[float(x) for x in subtract(b, a)] for a, b in pairwise(points)]

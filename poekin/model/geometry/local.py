@@ -51,7 +51,8 @@ def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
     turning = np.any(angular_part(screws), axis=1)
     rotates = turning.astype(float)
     slides = np.where(turning, pitches, 1.0)
-    feet = np.stack(algebra.cross(angular_part(screws).T, linear_part(screws).T), axis=1)
+    w = angular_part(screws)
+    feet = np.stack(algebra.cross(w.T, linear_part(screws).T), axis=1)
     R = np.eye(3)
     origin = np.zeros(3)
     for i, S in enumerate(screws):
@@ -59,13 +60,15 @@ def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
         there = origin
         if turning[i]:
             z = angular_part(S)
-            there = feet[i] + z * (z @ (origin - feet[i]))
+            gap = origin - feet[i]
+            there = feet[i] + z * (z @ gap)
         frames[i, :3, :3] = turned_least(R.T @ z)
         frames[i, :3, 3] = R.T @ (there - origin)
         R = R @ rotation_part(frames[i])
         origin = there
     frames[n, :3, :3] = R.T @ rotation_part(home)
-    frames[n, :3, 3] = R.T @ (translation_part(home) - origin)
+    to_tip = translation_part(home) - origin
+    frames[n, :3, 3] = R.T @ to_tip
     return LocalForm(read_only(frames), read_only(rotates), read_only(slides))
 
 

@@ -50,3 +50,10 @@ def rezeroed(chain: AnyChain, q0: Any) -> AnyChain:
         joint_limits=chain.joint_limits - shifts[:, None],
         pitches=chain.pitches,
     )
+
+
+def without_offset(chain: AnyChain) -> AnyChain:
+    """A chain without coupling, its offset taken into the zero."""
+    if not chain.offset.any():
+        return chain
+    return rezeroed(chain.replace(offset=np.zeros(chain.dof)), chain.offset)

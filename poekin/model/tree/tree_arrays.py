@@ -38,16 +38,22 @@ class TreeLayout(NamedTuple):
 def layout_of(tree: Tree, joints: Sequence[Joint], coupling: Coupling) -> TreeLayout:
     """The layout of a robot, read-only."""
     order = np.array(tree.order, dtype=np.int64)
+    count = len(order)
+    child_link = np.array(tree.child_link, dtype=np.int64)
+    parent_link = np.array(tree.parent_link, dtype=np.int64)
     link_row = np.zeros(len(tree.parent_joint), dtype=np.int64)
-    link_row[np.array(tree.child_link, dtype=np.int64)[order]] = np.arange(1, len(order) + 1)
-    joint_row = np.empty(len(order), dtype=np.int64)
-    joint_row[order] = np.arange(len(order))
+    link_row[child_link[order]] = np.arange(1, count + 1)
+    joint_row = np.empty(count, dtype=np.int64)
+    joint_row[order] = np.arange(count)
+    ordered = [joints[j] for j in tree.order]
+    origins = np.array([joint.origin for joint in ordered])
+    screws = np.array([joint.screw for joint in ordered])
     arrays: tuple[Any, ...] = (
         link_row,
         joint_row,
-        link_row[np.array(tree.parent_link, dtype=np.int64)[order]],
-        np.array([joints[j].origin for j in tree.order]).reshape(len(order), 4, 4),
-        np.array([joints[j].screw for j in tree.order]).reshape(len(order), 6),
+        link_row[parent_link[order]],
+        origins.reshape(count, 4, 4),
+        screws.reshape(count, 6),
         coupling.coordinate[order],
         coupling.ratio[order],
         coupling.shift[order],
@@ -65,11 +71,14 @@ def link_poses(
     free: for the number of a floating or planar joint its poses (N, 4, 4); the others are at
     identity.
     """
-    x = np.zeros((len(values), len(layout.parents)))
+    count = len(values)
+    bodies = len(layout.parents)
+    x = np.zeros((count, bodies))
     follows = layout.coordinate >= 0
-    x[:, follows] = values[:, layout.coordinate[follows]] * layout.ratio[follows]
+    followed = values[:, layout.coordinate[follows]]
+    x[:, follows] = followed * layout.ratio[follows]
     x += layout.shift
-    out = np.empty((len(values), len(layout.parents) + 1, 4, 4))
+    out = np.empty((count, bodies + 1, 4, 4))
     if not free:
         tree_poses.call(layout.parents, layout.origins, layout.screws, x, out)
         return out
@@ -85,7 +94,8 @@ def link_poses(
     for row, parent in enumerate(layout.parents.tolist()):
         branch.append(row if row in placed else branch[parent])
     for row in cut:
-        T = out[:, layout.parents[row]] @ layout.origins[row] @ placed[row]
+        parent = out[:, layout.parents[row]]
+        T = parent @ layout.origins[row] @ placed[row]
         members = np.flatnonzero(np.array(branch) == row)
         out[:, members] = T[:, None] @ out[:, members]
     return out

@@ -15,7 +15,7 @@ from ...engine.kernels import ik_codes as codes
 from ...errors import InputError, PoseError, safe_repr
 from ...formulas.inverse import pose_error
 from ...groups.arrays import Array, poses, shaped
-from ...groups.vectors import rotation_part
+from ...groups.vectors import norm, rotation_part
 from ...model.chain import Chain
 
 TASKS: dict[str, tuple[int, int, Part]] = {
@@ -80,7 +80,8 @@ class Task:
             pose_error.keep_in_plane(self.axis, columns, J.shape[-1])
         else:
             a = rotation_part(T) @ self.axis
-            pose_error.remove_turn_about(np.moveaxis(a, -1, 0), columns, J.shape[-1])
+            axes = np.moveaxis(a, -1, 0)
+            pose_error.remove_turn_about(axes, columns, J.shape[-1])
         return np.moveaxis(columns, (0, 1), (-2, -1))
 
 
@@ -128,7 +129,8 @@ def make_task(name: Any, axis: Any, weights: Any) -> Task:
     if weights is None:
         weights = np.ones(6)
     w = shaped(weights, (6,), "weights").copy()
-    if w.ndim != 1 or not np.isfinite(w).all() or (w <= 0).any():
+    positive = np.isfinite(w).all() and (w > 0).all()
+    if w.ndim != 1 or not positive:
         raise InputError(
             f"weights: expected six positive numbers (rotation; position), got {safe_repr(weights)}"
         )
@@ -136,5 +138,4 @@ def make_task(name: Any, axis: Any, weights: Any) -> Task:
         w[:3] = 0.0
     if name == "rotation":
         w[3:] = 0.0
-    a = a / np.linalg.norm(a)
-    return Task(cast(TaskName, name), a, w / w.max())
+    return Task(cast(TaskName, name), a / norm(a), w / w.max())

@@ -64,10 +64,13 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
     shift = np.zeros(n)
     if found.joints:
         shift, directions = zeros_and_directions(found)
-        factors = directions[:, None] * found.a.coupling[compared_rows(found)]
+    ratios = found.a.coupling[compared_rows(found)]
+    factors = directions[:, None] * ratios
     arm = second_arm(second, base, factors, shift)
-    size = max(scene.size, arm_size(geometry, np.zeros(n)))
-    nodes = second_nodes(second, geometry, _sentences(found), set(_moved_ends(found)), size)
+    own_size = arm_size(geometry, np.zeros(n))
+    size = max(scene.size, own_size)
+    ends = set(_moved_ends(found))
+    nodes = second_nodes(second, geometry, _sentences(found), ends, size)
     lines = found.summary().splitlines()
     words = [lines[-1], LEGEND, *lines[:-1]]
     left = len(words) - MOST_WORDS
@@ -88,9 +91,13 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
 
 def joint_table(found: Comparison) -> PageTable:
     """The joints of both models side by side; the last columns only where they say something."""
-    rows = [tuple(map(str, joint_row(joint, found))) for joint in found.joints]
+    rows = (map(str, joint_row(joint, found)) for joint in found.joints)
     columns = list(zip(HEADS, *rows, strict=True))
-    told = columns[:ALWAYS] + [column for column in columns[ALWAYS:] if {*column[1:]} - NOTHING]
+    told = columns[:ALWAYS]
+    for column in columns[ALWAYS:]:
+        _, *cells = column
+        if not NOTHING.issuperset(cells):
+            told.append(column)
     heads, *cells = zip(*told, strict=True)
     return PageTable("Joint by joint", heads, tuple(cells))
 
@@ -108,6 +115,9 @@ def _sentence(joint: JointComparison, found: Comparison) -> str:
 
 def _moved_ends(found: Comparison) -> Iterator[str]:
     """Names of b's base and tip, where they are elsewhere than a's."""
-    for name, moved in ((found.b.base, found.base), (found.b.tip, found.tool)):
-        if moved is not None and np.abs(se3.log(moved)).max() > found.tol_position:
+    b = found.b
+    for name, moved in ((b.base, found.base), (b.tip, found.tool)):
+        if moved is None:
+            continue
+        if np.abs(se3.log(moved)).max() > found.tol_position:
             yield name

@@ -49,12 +49,13 @@ def path_scene(path: PathResult, robot: Robot | None = None) -> Scene:
     InputError
         If no pose of the path is made of finite numbers.
     """
-    known = np.flatnonzero(np.isfinite(path.q).all(axis=1))
+    q = path.q
+    known = np.flatnonzero(np.isfinite(q).all(axis=1))
     if not len(known):
         raise InputError("view: a path with at least one finite pose expected")
-    stage = make_stage(path.chain, path.q[known[0]], robot)
-    points = np.full((len(path.q), 3), np.nan)
-    points[known] = translation_part(path.chain.fk(path.q[known]))
+    stage = make_stage(path.chain, q[known[0]], robot)
+    points = np.full((len(q), 3), np.nan)
+    points[known] = translation_part(path.chain.fk(q[known]))
     targets = path.solution.target
     frames: list[Node] = []
     if targets is not None:
@@ -75,7 +76,8 @@ def _way(path: PathResult, points: Array, stage: Stage) -> Iterator[Node]:
     """The way of the tip, without what is no number, and what is marked on it."""
     reached = np.isfinite(points).all(axis=1)
     width = 0.005 * stage.size
-    yield Polyline(stage.attachment("path", "path", "way of the tip"), points[reached], width)
+    way = stage.attachment("path", "path", "way of the tip")
+    yield Polyline(way, points[reached], width)
     for event in path.events:
         attachment = stage.attachment("path", "marked", event.text)
         stretch = points[event.first : event.last + 1]
@@ -95,17 +97,20 @@ def _way(path: PathResult, points: Array, stage: Stage) -> Iterator[Node]:
 def _motion(path: PathResult, known: np.ndarray, stage: Stage) -> SceneMotion:
     """Joints over time, every k-th row and those beside a change of branch; marks by these rows."""
     switches = np.array(path.branch_switches, int)
-    wanted = np.concatenate([known[evenly(len(known), ROWS)], switches, switches - 1])
+    some = known[evenly(len(known), ROWS)]
+    wanted = np.concatenate([some, switches, switches - 1])
     rows = np.intersect1d(wanted, known)
     times = path.times
     if times is None:
         times = np.linspace(0.0, SECONDS, len(path.q))
     marks = tuple(_by_rows(event, rows) for event in path.events)
-    return SceneMotion(stage.configurations(path.q[rows]), times[rows], marks)
+    configurations = stage.configurations(path.q[rows])
+    return SceneMotion(configurations, times[rows], marks)
 
 
 def _by_rows(event: PathEvent, rows: np.ndarray) -> PathEvent:
     """An event from the first to the last of the rows that are played in it, one at least."""
-    first = min(int(np.searchsorted(rows, event.first)), len(rows) - 1)
-    last = int(np.searchsorted(rows, event.last, side="right")) - 1
-    return replace(event, first=first, last=max(first, last))
+    after_first = int(np.searchsorted(rows, event.first))
+    after_last = int(np.searchsorted(rows, event.last, side="right"))
+    first = min(after_first, len(rows) - 1)
+    return replace(event, first=first, last=max(first, after_last - 1))

@@ -26,12 +26,13 @@ MOST = 32
 
 def pose_nodes(stage: Stage, poses: Array, length: float, name: str) -> list[Node]:
     """Frames at poses (n, 4, 4) in the chain's base, m, as arrows of a length."""
-    names = [name] if len(poses) == 1 else [f"{name} {k}" for k in range(len(poses))]
-    return [
-        Triangles(stage.attachment("path", role, words), *axis)
-        for words, pose in zip(names, poses, strict=True)
-        for role, axis in zip(XYZ, frame_axes(pose, length), strict=True)
-    ]
+    nodes: list[Node] = []
+    for k, pose in enumerate(poses):
+        words = name if len(poses) == 1 else f"{name} {k}"
+        for role, axis in zip(XYZ, frame_axes(pose, length), strict=True):
+            attachment = stage.attachment("path", role, words)
+            nodes.append(Triangles(attachment, *axis))
+    return nodes
 
 
 def target_nodes(stage: Stage, poses: Array) -> list[Node]:
@@ -39,15 +40,19 @@ def target_nodes(stage: Stage, poses: Array) -> list[Node]:
     nodes = pose_nodes(stage, poses, 0.1 * stage.size, "target")
     if len(poses) == 1:
         place = translation_part(poses[0]) + 0.03 * stage.size
-        nodes.append(Label(stage.attachment("path", "path", "target"), place, "target"))
+        attachment = stage.attachment("path", "path", "target")
+        nodes.append(Label(attachment, place, "target"))
     return nodes
 
 
 def configuration_words(chain: Chain, q: Array) -> str:
     """A configuration for reading: "12.5°, −3°, 20 mm"."""
-    units: list[Unit] = ["rad" if chain.is_angle(k) else "m" for k in range(chain.dof)]
     rounded = np.round(q, 9) + 0.0  # what is below is the rounding of a zero
-    return ", ".join(amount(float(x), unit, 3) for x, unit in zip(rounded, units, strict=True))
+    words = []
+    for k, x in enumerate(rounded.tolist()):
+        unit: Unit = "rad" if chain.is_angle(k) else "m"
+        words.append(amount(x, unit, 3))
+    return ", ".join(words)
 
 
 def asked_of(found: Solution | AllSolutions) -> tuple[Chain, Array]:
@@ -81,7 +86,8 @@ def solution_scene(found: Solution, robot: Robot | None = None) -> Scene:
     """
     chain, poses = asked_of(found)
     q = found.q.reshape(-1, chain.dof)
-    known = np.flatnonzero(np.isfinite(q).all(axis=1) & np.isfinite(poses).all(axis=(1, 2)))
+    finite = np.isfinite(q).all(axis=1) & np.isfinite(poses).all(axis=(1, 2))
+    known = np.flatnonzero(finite)
     if not len(known):
         raise InputError(f"view: expected a finite target, got {found.summary()}")
     stage = make_stage(chain, q[known[0]], robot)
@@ -99,6 +105,7 @@ def solution_scene(found: Solution, robot: Robot | None = None) -> Scene:
     )
     if not found.success.ndim:
         return scene
-    flat = zip(shown.tolist(), rows, found.reason.reshape(-1)[shown], strict=True)
+    reasons = found.reason.reshape(-1)[shown]
+    flat = zip(shown.tolist(), rows, reasons, strict=True)
     choices = tuple(SceneChoice(row, f"target {k}: {reason}") for k, row, reason in flat)
     return replace(scene, choices=choices)

@@ -16,6 +16,7 @@ import numpy as np
 
 from ....engine.kernels.branches.closed_arm import PARALLEL, WRIST
 from ....groups.arrays import Array
+from ....groups.vectors import norm
 from .joints import LoopJoint, Tolerance, across, meeting_point, parallel, planar
 
 # Shares of the reach, along an axis and of a point: any that nothing else is at.
@@ -77,7 +78,8 @@ def _wrists(
             own = group[0]._replace(point=place)
             u = across(h)
             wrist = [own, _turns(u, place), _turns(np.cross(h, u), place)]
-            yield from _filled([*before, *wrist, *behind], i, WRIST, f"a point of axis {i + 1}")
+            words = f"a point of axis {i + 1}"
+            yield from _filled([*before, *wrist, *behind], i, WRIST, words)
         return
     place = meeting_point(group, tolerance)
     if place is None:
@@ -85,8 +87,9 @@ def _wrists(
     wrist = [joint._replace(point=place) for joint in group]
     words = f"axes {_listed(i, made_of)} meet"
     if made_of == 2:
-        normal = np.cross(group[0].direction, group[1].direction)
-        wrist.insert(1, _turns(normal / np.linalg.norm(normal), place))
+        first, second = group
+        normal = np.cross(first.direction, second.direction)
+        wrist.insert(1, _turns(normal / norm(normal), place))
     else:
         words = f"spherical wrist: {words}"
     yield from _filled([*before, *wrist, *behind], i, WRIST, words)
@@ -111,8 +114,10 @@ def _parallels(
         return
     if made_of == 2:
         a, b = group
-        way = np.cross(a.direction, np.cross(b.point - a.point, a.direction))
-        apex = a.point + 0.5 * way + 0.5 * np.cross(a.direction, way)
+        gap = b.point - a.point
+        way = np.cross(a.direction, np.cross(gap, a.direction))
+        aside = np.cross(a.direction, way)
+        apex = a.point + 0.5 * way + 0.5 * aside
         group.insert(1, _turns(a.direction, apex))
     six = [*joints[:i], *group, *joints[i + made_of :]]
     short = 6 - len(six)
@@ -139,7 +144,8 @@ def _filled(
     if short == 3:
         directions = directions[:3]
     for chosen in combinations(directions, short):
-        added = [LoopJoint(d, six[-1].point, True) for d in chosen]
+        place = six[-1].point
+        added = [LoopJoint(d, place, True) for d in chosen]
         yield Completion([*six, *added], first, family, words)
 
 
@@ -158,5 +164,5 @@ def _generic_point(
 
 def _listed(i: int, count: int) -> str:
     """The numbers of joints, from 1: "4, 5 and 6"."""
-    numbers = [str(k + 1) for k in range(i, i + count)]
-    return f"{', '.join(numbers[:-1])} and {numbers[-1]}"
+    *numbers, last = (str(k + 1) for k in range(i, i + count))
+    return f"{', '.join(numbers)} and {last}"

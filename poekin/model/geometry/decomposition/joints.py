@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
-from ....groups.vectors import angular_part, linear_part, norm
+from ....groups.vectors import angular_part, directions, linear_part, norm
 from ...chain_data import ChainData
-from ..other_frames import rezeroed
+from ..other_frames import without_offset
 
 SLANT = 0.01
 """The sine of the angle below which two axes are not taken to meet: their point would be too far to
@@ -42,16 +42,14 @@ class Tolerance(NamedTuple):
 
 def joints_of(chain: ChainData) -> list[LoopJoint]:
     """The joints of a chain without coupling, its offset taken into the zero."""
-    if chain.offset.any():
-        chain = rezeroed(chain.replace(offset=np.zeros(chain.dof)), chain.offset)
+    chain = without_offset(chain)
     joints: list[LoopJoint] = []
     point = np.zeros(3)
-    for i, (S, kind) in enumerate(zip(chain.screws, chain.kinds, strict=True)):
-        if kind == "prismatic":
-            joints.append(LoopJoint(linear_part(S).copy(), point, True, i))
-        else:
+    for i, S in enumerate(chain.screws):
+        slides = chain.kinds[i] == "prismatic"
+        if not slides:
             point = np.cross(angular_part(S), linear_part(S))
-            joints.append(LoopJoint(angular_part(S).copy(), point, False, i))
+        joints.append(LoopJoint(directions(S), point, slides, i))
     return joints
 
 
@@ -68,10 +66,12 @@ def meeting_point(joints: Sequence[LoopJoint], tolerance: Tolerance) -> Array | 
         return None
     H = np.array([joint.direction for joint in joints])
     C = np.array([joint.point for joint in joints])
-    across = np.eye(3) - H[:, :, None] * H[:, None, :]
+    identity = np.eye(3)
+    across = identity - H[:, :, None] * H[:, None, :]
     start = C.mean(axis=0)
     away = np.einsum("nij,nj->i", across, C - start)
-    point = start + np.linalg.solve(across.sum(axis=0), away)
+    shift = np.linalg.solve(across.sum(axis=0), away)
+    point = start + shift
     distances = np.linalg.norm(np.cross(H, point - C), axis=1)
     return point if distances.max() <= tolerance.distance else None
 
@@ -105,6 +105,6 @@ def planar(joints: Sequence[LoopJoint], tolerance: Tolerance) -> bool:
 
 def across(direction: Array) -> Array:
     """A unit vector across a unit vector."""
-    e = np.eye(3)[int(np.argmin(np.abs(direction)))]
-    v = np.cross(direction, e)
-    return np.asarray(v / np.linalg.norm(v), float)
+    smallest = int(np.argmin(np.abs(direction)))
+    v = np.asarray(np.cross(direction, np.eye(3)[smallest]), float)
+    return v / norm(v)

@@ -10,7 +10,7 @@ from ....engine.kernels.branches import closed_arm
 from ....groups.arrays import Array
 from ...chain import Chain
 from ...chain_data import ChainData
-from ..other_frames import rezeroed
+from ..other_frames import without_offset
 from .arm_array import arm_array
 from .completions import completions
 from .joints import Tolerance, joints_of
@@ -59,15 +59,14 @@ def branch_rows(arm: Array, dof: int, T: Array) -> Array:
     from ....engine.kernels.branches import closed_kernels as kernel  # which imports Numba
 
     rows = np.empty((len(T), closed_arm.BRANCHES, dof + 1))
-    kernel.branches_of(arm).call(arm, np.array(T, np.float64, order="C"), rows)
+    targets = np.array(T, np.float64, order="C")
+    kernel.branches_of(arm).call(arm, targets, rows)
     return rows
 
 
 def _home(chain: ChainData) -> Array:
     """Pose of the tip where all joints are at zero."""
-    if chain.offset.any():
-        chain = rezeroed(chain.replace(offset=np.zeros(chain.dof)), chain.offset)
-    return chain.home
+    return without_offset(chain).home
 
 
 def _known(chain: Chain) -> tuple[Array, Array]:
@@ -83,13 +82,14 @@ def _error(arm: Array, q: Array, T: Array) -> float:
     """Largest distance of the nearest branch from the configurations that poses were made of; inf
     without any.
     """
-    rows = branch_rows(arm, q.shape[1], T)[:, :, :-1]
-    off = np.abs(rows - q[:, None])
-    turns = arm[:6, closed_arm.SLIDES] == 0
-    columns = arm[:6, closed_arm.COLUMN][turns].astype(int)
+    rows = branch_rows(arm, q.shape[1], T)
+    off = np.abs(rows[:, :, :-1] - q[:, None])
+    joints = arm[:6]
+    turns = joints[:, closed_arm.SLIDES] == 0
+    columns = joints[turns, closed_arm.COLUMN].astype(int)
     angles = columns[columns >= 0]
-    off[:, :, angles] = np.abs(
-        off[:, :, angles] - 2 * np.pi * np.round(off[:, :, angles] / (2 * np.pi))
-    )
+    turn = 2 * np.pi
+    angle_off = off[:, :, angles]
+    off[:, :, angles] = np.abs(angle_off - turn * np.round(angle_off / turn))
     worst = np.where(np.isnan(off), np.inf, off).max(axis=2)
     return float(worst.min(axis=1).max())

@@ -55,23 +55,26 @@ def fastest(
 def times_of(s: Array, x: Array) -> Array:
     """Times (N + 1,) of the points of a grid, from 0, u constant in each step."""
     rate = np.sqrt(x)
-    steps = 2 * np.diff(s) / (rate[1:] + rate[:-1])
-    return np.concatenate([[0.0], np.cumsum(steps)])
+    mean_rate = rate[1:] + rate[:-1]
+    times = np.zeros(len(s))
+    np.cumsum(2 * np.diff(s) / mean_rate, out=times[1:])
+    return times
 
 
 def _limits(s: Array, path: PathDerivatives, speed: Array, acceleration: Array) -> _Limits:
     width = 2 * np.diff(s)
     turning = path.first / acceleration
     bending = path.second / acceleration
-    at_end = turning[1:] + width[:, None] * bending[1:]
-    of_u = np.concatenate([turning[:-1], at_end], axis=1)
+    turning_ahead = turning[1:] + width[:, None] * bending[1:]
+    of_u = np.concatenate([turning[:-1], turning_ahead], axis=1)
     of_x = np.concatenate([bending[:-1], bending[1:]], axis=1)
     size = np.abs(of_u)
     binding = size > NEGLIGIBLE * size.max(axis=1, keepdims=True)
     with np.errstate(divide="ignore", invalid="ignore"):
         h = np.where(binding, 1 / size, np.inf)
         g = np.where(binding, of_x / of_u, 0.0)
-        most = np.min((speed / np.abs(path.first)) ** 2, axis=1)
+        fastest = speed / np.abs(path.first)
+        most = np.min(fastest**2, axis=1)
     last = np.zeros((len(width), 1))
     return _Limits(
         width,
@@ -84,7 +87,7 @@ def _limits(s: Array, path: PathDerivatives, speed: Array, acceleration: Array) 
 def _backward(limits: _Limits) -> Array:
     """Largest controllable x (N + 1,): from it the path can be kept to, to rest at its end."""
     largest = np.zeros(len(limits.most))
-    for i in range(len(limits.width) - 1, -1, -1):
+    for i in reversed(range(len(limits.width))):
         above = limits.h[i].copy()
         above[-1] = largest[i + 1] / limits.width[i]
         below = limits.h[i]
@@ -92,7 +95,8 @@ def _backward(limits: _Limits) -> Array:
         slope = g[:, None] - g
         room = above[:, None] + below
         binding = slope > 0
-        by_pairs = np.min(room[binding] / slope[binding], initial=np.inf)
+        crossings = room[binding] / slope[binding]
+        by_pairs = np.min(crossings, initial=np.inf)
         largest[i] = min(limits.most[i], by_pairs)
     return largest
 
@@ -100,7 +104,10 @@ def _backward(limits: _Limits) -> Array:
 def _forward(limits: _Limits, controllable: Array) -> Array:
     x = np.zeros(len(controllable))
     for i, width in enumerate(limits.width):
-        u = np.min(limits.h[i, :-1] - limits.g[i, :-1] * x[i])
+        h = limits.h[i, :-1]
+        g = limits.g[i, :-1]
+        u = np.min(h - g * x[i])
         # below 0 by a rounding, where the arm all but rests
-        x[i + 1] = max(min(controllable[i + 1], x[i] + width * u), 0.0)
+        ahead = min(controllable[i + 1], x[i] + width * u)
+        x[i + 1] = max(ahead, 0.0)
     return x

@@ -37,16 +37,21 @@ def axis_nodes(
     """For each joint its axis A_k, a head at the positive end, and its number; lines are longer where
     bodies cover them.
     """
-    half = HALF_LINE * (COVERED if covered else 1.0) * min(1.0, (CROWD / max(len(radii), 1)) ** 0.5)
+    line = HALF_LINE * (COVERED if covered else 1.0)
+    few = CROWD / max(len(radii), 1)
+    half = line * min(1.0, few**0.5)
     nodes: list[Node] = []
-    for k, (joint, radius) in enumerate(zip(arm.joints, radii, strict=True)):
+    joints = zip(arm.joints, radii, strict=True)
+    for k, (joint, radius) in enumerate(joints):
         title = f"A{k + 1}"
         attachment = Attachment("axes", "joint", joint.parent, name=f"{title} {joint.name}")
         way = radius * joint.direction
         end = joint.point + half * way
-        head = cone(0.15 * radius, 0.5 * radius).placed(end, joint.direction)
+        head = cone(0.15 * radius, 0.5 * radius)
+        head = head.placed(end, joint.direction)
+        start = joint.point - half * way
         nodes += [
-            Polyline(attachment, np.array([joint.point - half * way, end]), 0.0025 * size),
+            Polyline(attachment, np.array([start, end]), 0.0025 * size),
             Triangles(attachment, *head),
             Label(attachment, end + way, title),
         ]
@@ -85,10 +90,12 @@ def frame_nodes(
         if frame.kind == "end":
             length = END_FRAME * largest * (COVERED if covered else 1.0)
         for role, axis in zip(XYZ, frame_axes(frame.pose, length), strict=True):
-            nodes.append(Triangles(Attachment("frames", role, frame.link, name=frame.name), *axis))
+            attachment = Attachment("frames", role, frame.link, name=frame.name)
+            nodes.append(Triangles(attachment, *axis))
         if frame.kind != "link":
             attachment = Attachment("frames", "first", frame.link, name=frame.name)
-            place = frame.pose[:3] @ [0.6 * length, 0.6 * length, 0.0, 1.0]
+            beside = [0.6 * length, 0.6 * length, 0.0, 1.0]
+            place = frame.pose[:3] @ beside
             nodes.append(Label(attachment, place, escape_unprintable(frame.name)))
     return nodes
 
@@ -106,11 +113,12 @@ def _screw_row(joint: JointGeometry, k: int) -> tuple[str, ...]:
         place = _vector(axis_of(joint.screw).point)
         pitch = _vector([joint.pitch])
     name = escape_unprintable(joint.name)
-    w, v = _vector(angular_part(joint.screw)), _vector(linear_part(joint.screw))
+    w = _vector(angular_part(joint.screw))
+    v = _vector(linear_part(joint.screw))
     return f"A{k + 1}", name, joint.kind, w, place, v, pitch
 
 
 def _vector(values: Array | list[float] | None) -> str:
     """Numbers to five digits and six decimals."""
-    row = np.round(np.asarray(values, float), 6) + 0.0
-    return ", ".join(f"{x:.5g}" for x in row)
+    row = np.round(np.asarray(values, float), 6)
+    return ", ".join(f"{x:.5g}" for x in row + 0.0)

@@ -26,7 +26,8 @@ GOOD = 2.0
 
 def is_one_arm(tips: Sequence[SceneTip]) -> bool:
     """Whether what moves the first tip moves all others too, as an arm does with its fingers."""
-    return all({*tips[0].coordinates} <= {*tip.coordinates} for tip in tips)
+    first = set(tips[0].coordinates)
+    return all(first.issubset(tip.coordinates) for tip in tips)
 
 
 def regular_opening(arm: ArmGeometry, chain: Chain, moved: Sequence[int], q: Array) -> Array:
@@ -43,7 +44,8 @@ def regular_opening(arm: ArmGeometry, chain: Chain, moved: Sequence[int], q: Arr
     found = singularity(chain, q[moved])
     if not found.singular:
         return q
-    turned = np.array([q, *itertools.islice(_turned(arm.sliders, moved, q), MOST)])
+    others = itertools.islice(_turned(arm.sliders, moved, q), MOST)
+    turned = np.array([q, *others])
     measures = manipulability(chain, turned[:, moved], length=found.length)
     condition = getattr(measures, found.part).condition
     if not np.isfinite(condition.min()):
@@ -51,13 +53,15 @@ def regular_opening(arm: ArmGeometry, chain: Chain, moved: Sequence[int], q: Arr
     good = turned[condition <= GOOD * condition.min()]
     count = (good != q).sum(axis=1)
     fewest = good[count == count.min()]
-    lowest = np.array([arm.points(row)[:, 2].min() for row in fewest])
-    return fewest[np.argmax(np.round(lowest, 9))]
+    heights = [arm.points(row)[:, 2].min() for row in fewest]
+    lowest = np.round(heights, 9)
+    return fewest[np.argmax(lowest)]
 
 
 def opening_words(arm: ArmGeometry, tip: str, q: Array, opening: Array) -> list[str]:
     """Sentence on the joints that are turned from q to the opening, if any."""
-    names = [slider.name for k, slider in enumerate(arm.sliders) if opening[k] != q[k]]
+    turned = opening != q
+    names = [slider.name for k, slider in enumerate(arm.sliders) if turned[k]]
     if not names:
         return []
     return [f"The page opens with {join_names(names)} turned: otherwise {quote(tip)} is singular."]
@@ -68,9 +72,10 @@ def _turned(sliders: Sequence[Slider], moved: Sequence[int], q: Array) -> Iterat
     ways = []
     for k in moved:
         if sliders[k].unit == "rad":
-            up = min(TURN, 0.5 * (sliders[k].upper - q[k]))
-            down = min(TURN, 0.5 * (q[k] - sliders[k].lower))
-            ways.append((k, [q[k] + step for step in (up, -down) if step]))
+            up = 0.5 * (sliders[k].upper - q[k])
+            down = 0.5 * (sliders[k].lower - q[k])
+            steps = (min(TURN, up), max(-TURN, down))
+            ways.append((k, [q[k] + step for step in steps if step]))
     for count in range(1, len(ways) + 1):
         for chosen in itertools.combinations(ways, count):
             for values in itertools.product(*(values for _, values in chosen)):

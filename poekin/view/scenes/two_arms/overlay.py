@@ -40,7 +40,8 @@ def second_arm(second: Exaggerated, base: Array, factors: Array, shift: Array) -
     tips = page_tips(chain, ())
     arm = scene_arm(chain, geometry, tips, geometry.sliders)
     if second.factor > 1:
-        factors = np.vstack([factors, np.zeros(factors.shape[1])])
+        no_coordinate = np.zeros(factors.shape[1])
+        factors = np.vstack([factors, no_coordinate])
         shift = np.append(shift, second.factor)
     return replace(arm, base=base, factors=factors, shift=shift)
 
@@ -58,10 +59,12 @@ def second_nodes(
     Parameters: geometry, of the chain as it is, not exaggerated; differing, a sentence for each
     joint that is another one, by its name; ends, names of the frames to draw; size, of the arms.
     """
-    radii = glyph_radii(geometry, np.zeros(len(geometry.sliders)), size)
+    at_zero = np.zeros(len(geometry.sliders))
+    radii = glyph_radii(geometry, at_zero, size)
     arm = _on_bodies(geometry, second)
-    thicker = np.array([COVER if joint.name in differing else SHELL for joint in arm.joints])
-    frames = tuple(frame for frame in arm.frames if frame.kind == "end" and frame.name in ends)
+    thicker = [COVER if joint.name in differing else SHELL for joint in arm.joints]
+    drawn_frames = [frame for frame in arm.frames if frame.kind == "end"]
+    frames = tuple(frame for frame in drawn_frames if frame.name in ends)
     nodes = [
         *skeleton_nodes(arm, radii * thicker, size),
         *frame_nodes(replace(arm, frames=frames), radii, size),
@@ -74,8 +77,10 @@ def second_nodes(
         for node in axis_nodes(only, radii[k : k + 1], size):
             if not isinstance(node, Label):
                 drawn.append(_differing(node, differing[joint.name]))
-        attachment = Attachment("differences", "differs", joint.parent, 1, differing[joint.name])
-        drawn.append(Label(attachment, joint.point + 2.5 * radii[k] * joint.direction, joint.name))
+        words = differing[joint.name]
+        attachment = Attachment("differences", "differs", joint.parent, 1, words)
+        way = 2.5 * radii[k] * joint.direction
+        drawn.append(Label(attachment, joint.point + way, joint.name))
     return drawn
 
 
@@ -93,16 +98,17 @@ def _on_bodies(geometry: ArmGeometry, second: Exaggerated) -> ArmGeometry:
             direction=rotation_part(back[k]) @ joint.direction,
         )
         joints.append(moved)
-    frames = [replace(frame, link=bodies[frame.link]) for frame in geometry.frames]
-    frames[-1] = replace(frames[-1], link=bodies[-1], pose=back[-1] @ frames[-1].pose)
+    *frames, tool = [replace(frame, link=bodies[frame.link]) for frame in geometry.frames]
+    frames.append(replace(tool, link=bodies[-1], pose=back[-1] @ tool.pose))
     names = [""] * (bodies[-1] + 1)
     for k, name in enumerate(geometry.links):
         names[bodies[k]] = name
+    bones = [replace(bone, link=bodies[bone.link]) for bone in geometry.bones]
     return replace(
         geometry,
         links=tuple(names),
         joints=tuple(joints),
-        bones=tuple(replace(bone, link=bodies[bone.link]) for bone in geometry.bones),
+        bones=tuple(bones),
         frames=tuple(frames),
     )
 
@@ -114,7 +120,8 @@ def _of_second(node: Node, differing: dict[str, str]) -> Node:
         return replace(node, attachment=replace(attachment, arm=1))
     if attachment.role == "joint" and attachment.name in differing:
         return _differing(node, differing[attachment.name])
-    return replace(node, attachment=replace(attachment, arm=1, role="second", opacity=FADED))
+    faded = replace(attachment, arm=1, role="second", opacity=FADED)
+    return replace(node, attachment=faded)
 
 
 def _differing(node: Node, words: str) -> Node:
