@@ -73,10 +73,15 @@ def parsed(text: str) -> ast.Module:
     return ast.parse(text)
 
 
-def imports(path: str, tree: ast.Module, root: Path) -> Iterator[tuple[int, str]]:
+@functools.cache
+def imports(path: str, tree: ast.Module, root: Path) -> tuple[tuple[int, str], ...]:
     """Line and absolute dotted name of all that a file imports: anywhere in it, relative too, and
     by import_module.
     """
+    return tuple(_imports(path, tree, root))
+
+
+def _imports(path: str, tree: ast.Module, root: Path) -> Iterator[tuple[int, str]]:
     package = Path(path).with_suffix("").parts[:-1]
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):

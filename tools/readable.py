@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import io
 import re
 import statistics
@@ -50,9 +51,14 @@ class Source:
     text: str
     tree: ast.Module
 
+    @functools.cached_property
+    def syntax(self) -> list[ast.AST]:
+        """All nodes of the tree."""
+        return list(ast.walk(self.tree))
+
     def docstrings(self) -> Iterator[ast.Expr]:
         """Docstrings of the module, its classes and its functions."""
-        for node in ast.walk(self.tree):
+        for node in self.syntax:
             if isinstance(node, Documented) and ast.get_docstring(node, clean=False) is not None:
                 statement = node.body[0]
                 if isinstance(statement, ast.Expr):
@@ -71,11 +77,11 @@ class Source:
 
     def nodes(self, kind: type[ast.AST]) -> int:
         """Number of syntax nodes of a kind."""
-        return sum(isinstance(node, kind) for node in ast.walk(self.tree))
+        return sum(isinstance(node, kind) for node in self.syntax)
 
     def tuple_assignments(self) -> int:
         """Number of assignments of a tuple display to a tuple of names."""
-        assignments = (node for node in ast.walk(self.tree) if isinstance(node, ast.Assign))
+        assignments = (node for node in self.syntax if isinstance(node, ast.Assign))
         return sum(
             isinstance(a.targets[0], ast.Tuple) and isinstance(a.value, ast.Tuple)
             for a in assignments

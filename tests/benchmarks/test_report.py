@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import sys
 from pathlib import Path
@@ -115,7 +116,11 @@ def test_a_look_is_measured_again_and_the_page_is_there_after_the_first(monkeypa
     for place in (command, measuring):
         monkeypatch.setattr(place, "TOPICS", {"one": Looked, "two": Looked})
     monkeypatch.setattr(command, "OPENING", ("two",))
+    ready = []
+    monkeypatch.setattr(measuring, "workers", lambda: contextlib.nullcontext(map))
+    monkeypatch.setattr(measuring, "_ready", ready.append)
     assert _run(monkeypatch, tmp_path) == 0
+    assert "group_kernels.so3_exp" in ready
     assert seen == [(True, False), (False, True), (False, True)]
     document = json.loads((tmp_path / "report" / "results.json").read_text(encoding="utf-8"))
     assert [(t["name"], t["quick"]) for t in document["topics"]] == [("one", False), ("two", False)]

@@ -158,11 +158,7 @@ def test_a_closed_stdout_is_no_error(crane):
 
 
 def test_a_closed_stderr_changes_neither_result_nor_code(crane):
-    for words, code in (
-        (["info", crane], 0),
-        (["fk", crane, "--tip", "no"], 2),
-        (["validate", crane], 0),
-    ):
+    for words, code in ((["info", crane], 0), (["fk", crane, "--tip", "no"], 2)):
         line = f"exec {shlex.join(_command(*words))} 2>&-"
         done = subprocess.run(["sh", "-c", line], capture_output=True, text=True)
         assert done.returncode == code

@@ -28,7 +28,7 @@ CASES = [
 ] + [("panda", "space"), ("panda", "body"), ("coupled", "space"), ("mixed", "body")]  # fmt: skip
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def cc():
     """The system's C compiler."""
     found = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
@@ -75,6 +75,18 @@ def build(cc, tmp_path):
     return lambda source, *options: Built(cc, tmp_path, source, options)
 
 
+@pytest.fixture(scope="module")
+def build_arm(cc, tmp_path_factory):
+    """Compile the text of an arm, once for all tests."""
+
+    @functools.cache
+    def built(name, frame):
+        source = emit.c(arm(name), frame, name="arm")
+        return Built(cc, tmp_path_factory.mktemp("arm"), source, ("-ffp-contract=off",))
+
+    return built
+
+
 def compiled(compiler: str, *words: str) -> None:
     done = subprocess.run([compiler, *STRICT, *words], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
@@ -95,39 +107,39 @@ def called(library: Path, name: str, *arrays: np.ndarray) -> None:
 
 
 @pytest.mark.parametrize(("name", "frame"), CASES)
-def test_it_is_the_emitted_python_to_the_last_bit_given_the_same_sines(name, frame, build):
+def test_it_is_the_emitted_python_to_the_last_bit_given_the_same_sines(name, frame, build_arm):
     chain = arm(name)
-    library = build(emit.c(chain, frame, name="bits"), "-ffp-contract=off").library
+    library = build_arm(name, frame).library
     python = module(emit.python(chain, frame))
     for function in ("fk", f"jacobian_{suffix(frame)}", f"fk_jacobian_{suffix(frame)}"):
         for q in chain.random(5, 20):
             x = getattr(python, f"{function}_angles")(q, np)
             same = np.empty_like(x)
-            called(library, f"bits_{function}_angles", q, same)
+            called(library, f"arm_{function}_angles", q, same)
             np.testing.assert_array_equal(same, x)
             s, c = np.sin(x), np.cos(x)
             wanted = getattr(python, f"{function}_sincos")(s, c, q, np)
             wanted = wanted if isinstance(wanted, tuple) else (wanted,)
             results = [np.full(w.shape, np.nan) for w in wanted]
-            called(library, f"bits_{function}_sincos", s, c, q, *results)
+            called(library, f"arm_{function}_sincos", s, c, q, *results)
             for got, w in zip(results, wanted, strict=True):
                 np.testing.assert_array_equal(got, w)
 
 
 @pytest.mark.parametrize(("name", "frame"), CASES)
-def test_from_q_it_is_the_chain_within_1e_14_reach_and_its_own_test_passes(name, frame, build):
+def test_from_q_it_is_the_chain_within_1e_14_reach_and_its_own_test_passes(name, frame, build_arm):
     chain = arm(name)
-    built = build(emit.c(chain, frame, name="from_q"))
+    built = build_arm(name, frame)
     code, verdict, worst = ran(built.program)
     assert (code, verdict) == (0, "passed")
     assert worst <= 1e-14 * chain.reach
     for q in chain.random(6, 20):
         wanted = expected(chain, frame, q)
         T, J = np.empty((4, 4)), np.empty((6, chain.dof))
-        called(built.library, f"from_q_fk_jacobian_{suffix(frame)}", q, T, J)
+        called(built.library, f"arm_fk_jacobian_{suffix(frame)}", q, T, J)
         alone_T, alone_J = np.empty((4, 4)), np.empty((6, chain.dof))
-        called(built.library, "from_q_fk", q, alone_T)
-        called(built.library, f"from_q_jacobian_{suffix(frame)}", q, alone_J)
+        called(built.library, "arm_fk", q, alone_T)
+        called(built.library, f"arm_jacobian_{suffix(frame)}", q, alone_J)
         for got, w in zip((T, J, alone_T, alone_J), (*wanted, *wanted), strict=True):
             assert np.abs(got - w).max(initial=0.0) <= 1e-14 * chain.reach
 

@@ -109,7 +109,10 @@ def test_numbers_of_no_sample_are_refused(numbers):
         Random.of(two_links(), 10).configurations(numbers)
 
 
-@pytest.mark.parametrize("numbers", [[0.5], [[1]], 3])
-def test_what_are_no_numbers_of_samples_is_refused(numbers):
-    with pytest.raises(ShapeError, match="whole numbers"):
+@pytest.mark.parametrize(
+    ("numbers", "words"),
+    [([0.5], r"got float64 \(1,\)"), ([[1]], r"got int\d+ \(1, 1\)"), (3, r"got int\d+ \(\)")],
+)
+def test_what_are_no_numbers_of_samples_is_refused(numbers, words):
+    with pytest.raises(ShapeError, match=f"numbers: expected whole numbers .N,., {words}"):
         Random.of(two_links(), 10).configurations(numbers)

@@ -36,7 +36,7 @@ _SCENES = (
 )
 _DRAWN = "view/drawn view/scale"
 _SLOW_LEAVES = (  # left for the end
-    "view/kinematics::test_links_and_jacobians_of_all_leaves_of_example_robot_data_are_the_robots"
+    "view/kinematics::test_links_and_jacobians_of_all_leaves_of_every_other_example_robot_are_the_robots"
 )
 _SLOW = "formats/dh::test_every_chain_of_the_real_robots_has_a_table"  # left for the end
 

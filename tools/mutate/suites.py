@@ -163,10 +163,11 @@ def _own_tests(path: str) -> Iterator[str]:
         words = [f"{folders[-1]}_{name}", name, folders[-1]]
     for word in words:
         for pattern in (f"test_{word}.py", f"test_{word}_*.py", f"test_{word}?.py"):
-            yield from _nearest(folders, pattern)
+            yield from _nearest(tuple(folders), pattern)
 
 
-def _nearest(folders: list[str], pattern: str) -> list[str]:
+@cache
+def _nearest(folders: tuple[str, ...], pattern: str) -> list[str]:
     """Files of tests with such a name in the innermost folder around a module that has any."""
     for k in range(len(folders), -1, -1):
         folder = "/".join(["tests", *folders[:k], ""])

@@ -93,9 +93,10 @@ class Session:
     def __init__(self, monkeypatch, caplog):
         self.monkeypatch, self.caplog = monkeypatch, caplog
 
-    def kernel(self) -> list[str]:
-        """exp on SO(3), by a kernel that has to be loaded or compiled."""
-        self._begin()
+    def kernel(self, begin: bool = True) -> list[str]:
+        """exp on SO(3), by a kernel that has to be loaded or compiled; begin: as the first call."""
+        if begin:
+            self._begin()
         known, R = group_kernels.so3_exp, np.full((1, 3, 3), np.nan)
         new = Kernel(
             known.function, known.arguments, known.returns, known.quick, known.bare, known.portable
@@ -157,15 +158,19 @@ DAMAGE = {
 }
 
 
-def test_several_damaged_entries_are_made_anew_in_one_process_with_one_log_line(home):
+def test_several_damaged_entries_are_made_anew_in_one_process_with_one_log_line(
+    session, home, tmp_path
+):
     for name, damage in (("so3_exp", "another pickle"), ("arm", "one bit flipped")):
         (entry,) = entries(home, name)
         entry.write_bytes(DAMAGE[damage](entry.read_bytes()))
-    out, log = run(home)
-    assert out == RIGHT
-    assert log.count(DAMAGED) == 1
-    assert not list(home.glob("owned"))
-    assert run(home) == (RIGHT, "")
+    (damaged,) = session.arm()
+    assert DAMAGED in damaged
+    *_, compiling = session.kernel(begin=False)
+    assert [message for message in session.caplog.messages if DAMAGED in message] == [damaged]
+    assert COMPILING in compiling
+    assert not list(tmp_path.rglob("owned"))
+    assert session.kernel() == session.arm() == []
 
 
 @pytest.mark.parametrize("damage", DAMAGE)

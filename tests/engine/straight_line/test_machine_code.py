@@ -6,12 +6,17 @@ from __future__ import annotations
 
 import platform
 
+import numpy as np
 import pytest
 from llvmlite import binding
+from numba import njit
 from numba.core import config
 
-from poekin.engine.straight_line.arm_code import arm_code
-from poekin.engine.straight_line.machine_code import object_code, processor
+from poekin.engine.kernels import arm_kernels
+from poekin.engine.kernels.arm_kernels import run_columns as columns_of_four
+from poekin.engine.kernels.arm_kernels import sines_of_block
+from poekin.engine.straight_line.arm_code import ArmCode, arm_code
+from poekin.engine.straight_line.machine_code import LANES, object_code, processor
 from poekin.formats.load import load
 
 
@@ -52,3 +57,29 @@ def test_the_code_of_each_processor_is_kept_by_itself(monkeypatch, tmp_path, pro
         named(monkeypatch, name)
         arm_code("key", lambda: program, 6, True)
     assert len(list((tmp_path / "cache").glob("arm-*.kernel"))) == 2
+
+
+def test_columns_hold_the_numbers_of_four_configurations_side_by_side():
+    chain = load("puma560").chain()
+    q = chain.random(1, size=arm_kernels.BLOCK)
+    fast = chain.compile()
+    made = fast.program("hybrid", pose=True)
+    arm = ArmCode(object_code(made, True, "columns"), len(made.angles), 6, "columns")
+    sines = np.empty((len(made.angles), arm_kernels.BLOCK))
+    cosines = np.empty_like(sines)
+    R_p = np.empty((12, LANES))
+    J = np.empty((36, LANES))
+    first = 8
+    arm_kernels.pose_one.ready()  # which lets compiled code call the functions of its module
+    run_columns(arm.address, q, sines, cosines, first, R_p, J)
+    T_own, J_own = chain.fk_jacobian(q[first : first + LANES], "hybrid")
+    np.testing.assert_allclose(R_p[:9].T, T_own[:, :3, :3].reshape(LANES, 9), atol=1e-14)
+    np.testing.assert_allclose(R_p[9:].T, T_own[:, :3, 3], atol=1e-14)
+    np.testing.assert_allclose(J.T, J_own.reshape(LANES, 36), atol=1e-14)
+
+
+@njit
+def run_columns(address, q, sines, cosines, first, R_p, J):
+    """As a kernel of sweeps calls it."""
+    sines_of_block(address, q, sines, cosines)
+    columns_of_four(address, sines, cosines, first, q, R_p, J)

@@ -101,6 +101,7 @@ BLUE = '<color rgba="0 0 1 0.5"/>'
         ("", '<material name="m"/>', None),
         ("", '<material name="m"><texture filename="t.png"/></material>', None),
         ("", '<material><color rgba="2 -1 0 1"/></material>', (1, 0, 0, 1)),
+        ("", "<material><color/></material>", (1, 1, 1, 1)),
     ],
 )  # fmt: skip
 def test_a_colour_is_the_one_of_the_robot_s_material_then_the_visual_s_own(above, material, color):

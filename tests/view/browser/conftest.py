@@ -4,6 +4,7 @@ console fails the test that opened it.
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -31,8 +32,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Open pages first: workers that share the tests out steal from the end, and a file's pages are
     opened, and the browser started, in each worker that has one of its tests.
     """
-    here = Path(__file__).parent
-    items.sort(key=lambda item: here not in item.path.parents)
+    here = f"{Path(__file__).parent}{os.sep}"
+    items.sort(key=lambda item: not str(item.path).startswith(here))
 
 
 @pytest.fixture(scope="session")
@@ -81,7 +82,7 @@ class Opened:
         """Value of JavaScript in the page; of a function, of what is given."""
         return self.frame.evaluate(script, given)
 
-    def look(self, width: int = 960, height: int = 600, dark: bool = False) -> None:
+    def look(self, width: int = 720, height: int = 450, dark: bool = False) -> None:
         """Make the window so large, px, and light or dark."""
         self.tab.set_viewport_size({"width": width, "height": height})
         self.tab.emulate_media(color_scheme="dark" if dark else "light")
