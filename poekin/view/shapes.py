@@ -140,7 +140,7 @@ def revolved(radii: ArrayLike, heights: ArrayLike, sides: int = SIDES) -> Surfac
 
 def _turns(sides: int) -> Array:
     """Angles (sides,) of a circle's corners, rad."""
-    return 2 * np.pi / sides * np.arange(sides)
+    return 2 * np.pi / sides * np.arange(sides, dtype=float)
 
 
 def _skin(rings: Array, ends: Array) -> Surface:

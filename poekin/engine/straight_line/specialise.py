@@ -31,7 +31,7 @@ Pose = tuple[float, ...]
 Matrix = list[list[Any]]
 
 
-class Walk(NamedTuple):
+class JointWalk(NamedTuple):
     """Arguments of a walk of `structured`: links, offsets along their axes, whether an axis is parallel
     to the one before, and sines and cosines of its sums of angles.
     """
@@ -246,12 +246,12 @@ class _Trace:
         """The pose T with its origin at p, given in the frame before joint 0."""
         return make_pose(T, transform(self.arm.base, p))
 
-    def _outward(self, T, begin: int, walk: Walk):
+    def _outward(self, T, begin: int, walk: JointWalk):
         """The pose of the frame after the last joint where T is the one before joint `begin`."""
         frame = structured.outward(axes(T), *walk, begin, self.rows)
         return from_axes(*frame)
 
-    def _inward(self, T, begin: int, walk: Walk):
+    def _inward(self, T, begin: int, walk: JointWalk):
         """The pose of the frame before joint 0 where T is the one after joint `begin`."""
         frame = structured.inward(axes(T), *walk, begin, self.rows)
         return from_axes(*frame)
@@ -284,7 +284,7 @@ class _Trace:
         offset = slide * self.arm.shift[i]
         return self.graph.linear(terms, offset)
 
-    def _outward_walk(self, begin: int) -> Walk:
+    def _outward_walk(self, begin: int) -> JointWalk:
         """Walk from joint `begin` to the last: a run of axes adds its angles up from its beginning."""
         joints = {}
         start = begin
@@ -293,7 +293,7 @@ class _Trace:
             joints[i] = range(start, i + 1)
         return self._walk(joints)
 
-    def _inward_walk(self, begin: int) -> Walk:
+    def _inward_walk(self, begin: int) -> JointWalk:
         """Walk from joint `begin` to the first: a run of axes adds its angles up from its end."""
         joints = {}
         end = begin
@@ -302,7 +302,7 @@ class _Trace:
             end = end if self.arm.parallel[i] else i - 1
         return self._walk(joints)
 
-    def _walk(self, joints: dict[int, range]) -> Walk:
+    def _walk(self, joints: dict[int, range]) -> JointWalk:
         """Arguments of a walk, its sines and cosines of the sums of the angles of `joints`."""
         sines: list[Any] = [0.0] * self.n
         cosines: list[Any] = [1.0] * self.n
@@ -310,7 +310,7 @@ class _Trace:
             sine, cosine = self._sine_cosine(summed)
             sines[i] = sine
             cosines[i] = cosine
-        return Walk(self.arm.links, self.d_offsets, self.arm.parallel, sines, cosines)
+        return JointWalk(self.arm.links, self.d_offsets, self.arm.parallel, sines, cosines)
 
     def _sine_cosine(self, joints: range):
         """Sine and cosine of the sum of the joints' angles."""

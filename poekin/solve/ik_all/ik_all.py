@@ -26,7 +26,7 @@ from .ik_all_search import POSE, Rule, SearchedArm, accepted
 from .listed import list_clear
 from .solution_sets.evidence import Evidence, Sampling, SolverUsed, missing_probability
 from .solution_sets.found import reduce_parts
-from .solution_sets.listing import Listing, Part, gathered
+from .solution_sets.listing import ListedPart, Listing, gathered
 from .solution_sets.places import Box, Places, in_order, make_places
 from .solution_sets.self_motion import directions
 from .sources import Method, Solvers, find, solvers_for
@@ -274,7 +274,7 @@ def _solved(
     numbers = np.flatnonzero(finite)
     stages = solvers_for(fast.chain, question.values[finite], question.free, method)
     arm = SearchedArm(fast, question.box, question.free, parallel)
-    parts: list[Part] = []
+    parts: list[ListedPart] = []
     left = np.arange(len(numbers))
     if question.is_plain and not all_revolutions:
         for stage in stages:
@@ -300,7 +300,7 @@ def _searched(
     solvers: Solvers | None,
     rule: Rule,
     all_revolutions: bool,
-) -> Part:
+) -> ListedPart:
     """The listing of the targets of these numbers, among all of them."""
     found = find(arm, rows[numbers], question.values[numbers], solvers, rule)
     found = found.placed(numbers, len(rows))
@@ -318,7 +318,7 @@ def _searched(
         )
     exact = solvers is not None and solvers.is_exact
     listing = Listing(places, errors, found.tally(exact))
-    return Part(np.arange(len(rows)), listing)
+    return ListedPart(np.arange(len(rows)), listing)
 
 
 def _evidence(

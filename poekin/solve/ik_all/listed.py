@@ -14,7 +14,7 @@ from .closed_form import ClosedForm
 from .elimination import Elimination
 from .ik_all_search import AIM, POSE, SearchedArm
 from .solution_sets.found import Tally
-from .solution_sets.listing import Listing, Part
+from .solution_sets.listing import ListedPart, Listing
 from .solution_sets.places import Places, whole_numbers
 from .sources import Solver, Solvers
 
@@ -31,7 +31,7 @@ _UNINTERRUPTED = 256  # targets between which an interrupt is seen
 
 def list_clear(
     arm: SearchedArm, T: Array, values: Array, solvers: Solvers, numbers: np.ndarray
-) -> tuple[list[Part], np.ndarray]:
+) -> tuple[list[ListedPart], np.ndarray]:
     """Solutions of those targets that are clear, in parts, with the numbers of each one's; and which
     targets are left (n,).
 
@@ -51,7 +51,7 @@ def list_clear(
             reduced = solvers.targets(T[which], own_values)
             listing, clear = _list(arm, solver, T[which], reduced, own_values)
             left[some] = ~clear
-            parts.append(Part(which[clear], listing))
+            parts.append(ListedPart(which[clear], listing))
     return parts, left
 
 

@@ -245,8 +245,8 @@ class Follower:
         within = np.clip(found, *self.problem.domain.limits.T)
         q[:done] = within
         rounding = WITHIN * (1 + np.abs(found))
-        apart = np.abs(found - within) > rounding
-        return _until(apart.any(axis=-1), done)
+        apart = np.any(np.abs(found - within) > rounding, axis=-1)
+        return _until(np.asarray(apart), done)
 
     def _kernel(
         self,

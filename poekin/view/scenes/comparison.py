@@ -64,8 +64,7 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
     shift = np.zeros(n)
     if found.joints:
         shift, directions = zeros_and_directions(found)
-    ratios = found.a.coupling[compared_rows(found)]
-    factors = directions[:, None] * ratios
+        factors = directions[:, None] * found.a.coupling[compared_rows(found)]
     arm = second_arm(second, base, factors, shift)
     own_size = arm_size(geometry, np.zeros(n))
     size = max(scene.size, own_size)

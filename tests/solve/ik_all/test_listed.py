@@ -9,7 +9,7 @@ import poekin as pk
 from poekin.solve.ik_all import ik_all as module
 from poekin.solve.ik_all.closed_form import closed_form
 from poekin.solve.ik_all.solution_sets.found import Tally
-from poekin.solve.ik_all.solution_sets.listing import Listing, gathered
+from poekin.solve.ik_all.solution_sets.listing import ListedPart, Listing, gathered
 from poekin.solve.ik_all.solution_sets.places import Places
 from poekin.solve.ik_all.solution_sets.self_motion import SelfMotion
 
@@ -133,8 +133,8 @@ def outcome(owner: list[int], within: list[int], name: str) -> Listing:
 
 
 def test_parts_of_a_batch_are_put_together_target_by_target():
-    first = Part(np.array([0, 3]), outcome([0, 0, 1], [2, 1], "a"))
-    second = Part(np.array([2]), outcome([0], [1], "b"))
+    first = ListedPart(np.array([0, 3]), outcome([0, 0, 1], [2, 1], "a"))
+    second = ListedPart(np.array([2]), outcome([0], [1], "b"))
     whole = gathered([first, second], 4)
     assert whole.places.owner.tolist() == [0, 0, 2, 3]
     assert whole.places.q.ravel().tolist() == [0.0, 1.0, 0.0, 2.0]

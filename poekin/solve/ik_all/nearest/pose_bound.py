@@ -201,7 +201,7 @@ def _chosen(links: _Links, levers: Array, of_shift: float) -> Array:
         weight = 1 / np.sqrt(size + 1e-3 * size.max())
     E = links.E.copy()
     # E_i e^{a A_i}: the turn comes first, so that it is about the given axis.
-    amounts = x.reshape(len(links.free), 4)
+    amounts = np.asarray(x, float).reshape(len(links.free), 4)
     E[1:-1] = E[1:-1] @ se3.exp(applied(links.free, amounts))
     return E
 

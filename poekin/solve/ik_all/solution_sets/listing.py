@@ -22,14 +22,14 @@ class Listing(NamedTuple):
     tally: Tally
 
 
-class Part(NamedTuple):
+class ListedPart(NamedTuple):
     """The numbers (N,) of some targets, and their listing."""
 
     numbers: np.ndarray
     listing: Listing
 
 
-def gathered(parts: Sequence[Part], count: int) -> Listing:
+def gathered(parts: Sequence[ListedPart], count: int) -> Listing:
     """The listing of `count` targets, of parts that each have the numbers of theirs; targets of no
     part have no solutions.
     """
