@@ -62,7 +62,7 @@ class Opened:
         self.look()
         self.tab.on("console", self._heard)
         self.tab.on("pageerror", lambda fault: self.faults.append(str(fault)))
-        self.tab.on("requestfailed", lambda asked: self.faults.append(asked.url))
+        self.tab.on("requestfailed", self._failed)
         self.tab.goto(address)
         self.frame = self.tab.frames[-1] if framed else self.tab
         self.wait()
@@ -72,6 +72,13 @@ class Opened:
         self.frame.wait_for_function("window.poekin !== undefined")
         self.ask(READY)
         self.settle()
+
+    def _failed(self, request: Any) -> None:
+        # k3d ends its unpacking worker when that has answered: now and then the browser calls the
+        # worker's script, which is in the page, a failed request. A worker without an answer shows
+        # nothing, and `wait` finds it.
+        if not request.url.startswith("blob:"):
+            self.faults.append(request.url)
 
     def _heard(self, message: Any) -> None:
         # the canvas is read back without a GPU, which the driver says is slow
