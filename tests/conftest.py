@@ -36,6 +36,7 @@ SLOW = (
     *("engine/jit/test_cache.py", "test_examples.py", "tools/test_fuzz.py", "tools/test_mutate.py"),
     *("testing/conform/process/test_child.py", "testing/conform/test_plugin.py"),
     *("sweep/execution/test_store.py", "sweep/execution/test_every_processor.py"),
+    *("sweep/execution/test_dask.py", "cli/sweep/test_scheduler.py"),
     *("testing/conform/test_faults.py", "testing/conform/test_libraries.py"),
     # topics of the report, and other libraries
     *("benchmarks/test_report.py", "benchmarks/test_accuracy_by_angle.py"),

@@ -13,7 +13,7 @@ from .calibration import apply, calibrate
 from .kinematics import fk, follow, ik, jacobian, singularity
 from .model import takes_models
 from .models import axes, compare, count, dh, emit, info, urdf, validate, view
-from .sweep import reach, show
+from .sweep import base, reach, show
 
 app = typer.Typer(
     add_completion=False,
@@ -43,6 +43,7 @@ sweeps = typer.Typer(
 )
 sweeps.command("reach")(takes_models(reach.command))
 sweeps.command("show")(show.command)
+sweeps.command("base")(base.command)
 app.add_typer(sweeps, name="sweep")
 
 

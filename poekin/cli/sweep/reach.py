@@ -9,11 +9,13 @@ from typing import Annotated
 from typer import Exit, Option
 
 from ...errors import InputError
+from ...sweep.maps import map_files
 from ...sweep.maps.reach import reach
 from .. import array_files
 from ..kinematics.arm import Base, File, Json, Seed, Tip
 from ..model import model
 from ..output import Progress, as_json, path_text, say
+from .scheduler import Scheduler, executor
 
 
 class MeasureName(StrEnum):
@@ -39,7 +41,7 @@ Side = Annotated[
 Measured = Annotated[MeasureName, Option("--measure", help="What is kept of each cell.")]
 MapFile = Annotated[
     Path | None,
-    Option("--output", help="Where the map goes: a .npz file, for poekin sweep show."),
+    Option("--output", help="Where the map goes: a .npz file, or a .zarr directory (extra sweep)."),
 ]
 StorePlace = Annotated[
     Path | None,
@@ -68,20 +70,21 @@ def command(
     store: StorePlace = None,
     resume: Resume = False,
     workers: Workers = None,
+    scheduler: Scheduler = None,
     json: Json = False,
 ) -> None:
     """Map of the cells that the tool of FILE reaches, from configurations drawn at random. Exit code
     0 done, 2 error.
     """
     array_files.check_apart([output], model=file)
-    if output is not None and output.suffix != ".npz":
-        raise InputError(f"--output: expected a .npz file, got {path_text(output)}")
+    if output is not None:
+        map_files.ending(output, "--output")
     if resume and store is None:
         raise InputError(
             "--resume: expected with --store and the directory of the run to go on with"
         )
     chain = model(file).chain(base=base, tip=tip)
-    with Progress("sweep") as progress:
+    with executor(scheduler) as runs, Progress("sweep") as progress:
         found = reach(
             chain,
             resolution=resolution,
@@ -90,6 +93,7 @@ def command(
             measure=measure.value,
             seed=seed,
             workers=workers,
+            executor=runs,
             store=store,
             resume=resume,
             progress=progress,

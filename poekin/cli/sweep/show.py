@@ -11,7 +11,7 @@ from ...sweep.maps.sweep_map import load_map
 from ..kinematics.arm import Json
 from ..output import as_json, name, number, say, table
 
-MapFile = Annotated[Path, Argument(metavar="MAP", help="A .npz file of poekin sweep reach.")]
+MapFile = Annotated[Path, Argument(metavar="MAP", help="A map of poekin sweep reach.")]
 
 
 def command(file: MapFile, json: Json = False) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -17,8 +18,8 @@ from ..sweep import Sweep
 from .store import Store
 from .totals import SweepPart, Totals, part_of
 
-CHUNK = 2**22
-"""Samples a part, unless another number is asked: some tenths of a second."""
+_CHUNK = 2**22  # samples a part at least: some tenths of a second
+_OF_CELL = 4  # samples a part for each cell of the map
 _GIVEN = 8  # workers of an executor, where nobody says how many it has
 _BYTES = {False: 8, True: 24}  # of a cell, without and with a measure
 _SHARE = 0.8  # of the memory of the machine
@@ -44,7 +45,7 @@ class Range(NamedTuple):
 def run(
     sweep: Sweep,
     *,
-    chunk: int = CHUNK,
+    chunk: int | None = None,
     workers: int | None = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
@@ -57,8 +58,9 @@ def run(
     ----------
     sweep : Sweep
         The sweep.
-    chunk : int, default 4194304
-        Number of samples that are run, and kept, at a time.
+    chunk : int, optional
+        Number of samples that are run, and kept, at a time; by default four for each cell of the
+        map, 4194304 at least, so that a part costs more than the map that it comes in.
     workers : int, optional
         Number of threads, by default one for each processor; of an executor its workers, which are
         given twice as many parts at a time, by default 16.
@@ -85,6 +87,8 @@ def run(
     FileError
         If the store cannot be read or written; parts that were done are kept.
     """
+    if chunk is None:
+        chunk = max(_CHUNK, _OF_CELL * sweep.cells.count)
     whole(chunk, "chunk", 1)
     if workers is not None:
         whole(workers, "workers", 1)
@@ -174,6 +178,7 @@ def _summed(
 ) -> Totals:
     """The sum of all parts, with no more of them waited for at a time than `most`."""
     totals = Totals(sweep.cells, sweep.is_measured)
+    pickled = pickle.dumps(sweep)
     waiting: list[tuple[Range, Any]] = []
 
     def take() -> None:
@@ -193,7 +198,7 @@ def _summed(
                 totals.add(part)
                 tell.add(one)
                 continue
-            waiting.append((one, executor.submit(part_of, sweep, one.first, one.last)))
+            waiting.append((one, executor.submit(part_of, pickled, one.first, one.last)))
             if len(waiting) >= most:
                 take()
         while waiting:

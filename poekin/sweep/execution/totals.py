@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import pickle
 from typing import NamedTuple
 
 import numpy as np
@@ -90,8 +92,15 @@ class Totals:
             self.attained[cells] = np.where(is_better, part.attained, attained)
 
 
-def part_of(sweep: Sweep, first: int, last: int) -> SweepPart:
-    """Part of samples first ... last - 1: a function of these alone."""
+def part_of(pickled: bytes, first: int, last: int) -> SweepPart:
+    """Part of samples first ... last - 1 of a sweep: a function of these alone."""
+    sweep = _unpickled(pickled)
     totals = Totals(sweep.cells, sweep.is_measured)
     totals.run(sweep, first, last)
     return totals.part()
+
+
+# A worker gets the same sweep with each of its parts.
+@functools.lru_cache(4)
+def _unpickled(sweep: bytes) -> Sweep:
+    return pickle.loads(sweep)

@@ -11,7 +11,7 @@ from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, chain_of
 from ...results import Progress
 from ..cells import Cells
-from ..execution.run import CHUNK, Executor, run
+from ..execution.run import Executor, run
 from ..samples import Random
 from ..sweep import Measure, Sweep
 from .sweep_map import SweepMap
@@ -28,7 +28,7 @@ def reach(  # noqa: PLR0913 - options by keyword
     side: int = 0,
     measure: Measure = "reach",
     seed: int = 0,
-    chunk: int = CHUNK,
+    chunk: int | None = None,
     workers: int | None = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
@@ -54,8 +54,8 @@ def reach(  # noqa: PLR0913 - options by keyword
         Whether cells keep the best manipulability of the pose, and its configuration, too.
     seed : int, default 0
         Seed of the configurations.
-    chunk : int, default 4194304
-        Number of samples that are run, and kept, at a time.
+    chunk : int, optional
+        Number of samples that are run, and kept, at a time, as in `run`.
     workers : int, optional
         Number of threads or of an executor's workers, as in `run`.
     executor : object, optional

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
-import zipfile
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -21,6 +18,8 @@ from ..cells import Cells
 from ..execution.totals import NO_SAMPLE, Totals
 from ..samples import Grid, Random, Samples
 from ..sweep import Sweep
+from . import labelled, map_files
+from .kept_map import ARRAYS, KeptMap
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,35 +210,46 @@ class SweepMap(Result):
         q[known] = self.samples.configurations(numbers[known])
         return q
 
+    def to_xarray(self) -> Any:
+        """The map as a dataset of xarray.
+
+        Returns
+        -------
+        labelled : xarray.Dataset
+            `counts`, and of a measured sweep `best` and `attained`, along x, y and z (centres of
+            the cubes in the base frame, m) and the tiles, whose centres are `direction`.
+
+        Raises
+        ------
+        MissingExtra
+            If xarray is not installed (extra "sweep").
+        """
+        return labelled.dataset(self._kept(), self.cells)
+
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the map to a file of NumPy's (.npz), with its description as JSON inside.
+        """Writes the map so that it appears whole or not at all; an old one is replaced.
 
         Parameters
         ----------
         path : path
-            File to write; an old one is replaced.
+            A .npz file, of NumPy; or a .zarr directory, which `xarray.open_zarr` reads too.
 
         Raises
         ------
         FileError
             If it cannot be written.
+        InputError
+            If the path ends otherwise, or is a directory that holds something else.
+        MissingExtra
+            If a .zarr is asked for and xarray or Zarr is not installed (extra "sweep").
         """
-        file = Path(path)
-        place = file.with_name(f"{file.name}.{os.getpid()}")
-        arrays = {
-            "about": np.array(json.dumps(self.about)),
-            "counts": self.counts,
-            "outside": self.outside,
-        }
-        if self.best is not None:
+        map_files.write(path, self._kept(), self.cells)
+
+    def _kept(self) -> KeptMap:
+        arrays = {"counts": self.counts}
+        if self.best is not None and self.attained is not None:
             arrays |= {"best": self.best, "attained": self.attained}
-        try:
-            with place.open("wb") as written:
-                np.savez_compressed(written, **arrays)
-            place.replace(file)
-        except OSError as error:
-            place.unlink(missing_ok=True)
-            raise FileError(f"{file}: {error.strerror}") from error
+        return KeptMap(self.about, arrays, self.outside)
 
 
 def map_of(sweep: Sweep, totals: Totals) -> SweepMap:
@@ -270,7 +280,7 @@ def load_map(path: str | os.PathLike[str]) -> SweepMap:
     Parameters
     ----------
     path : path
-        The file.
+        The .npz file, or the .zarr directory.
 
     Returns
     -------
@@ -281,18 +291,21 @@ def load_map(path: str | os.PathLike[str]) -> SweepMap:
     ------
     FileError
         If there is no such file, or it holds no map.
+    InputError
+        If the path ends otherwise.
+    MissingExtra
+        If a .zarr is to be read and xarray or Zarr is not installed (extra "sweep").
     """
+    about, arrays, outside = map_files.read(path)
     try:
-        with Path(path).open("rb") as opened, np.load(opened, allow_pickle=False) as file:
-            about = json.loads(str(file["about"]))
-            arrays = {name: file[name] for name in ("counts", "best", "attained") if name in file}
-            outside = int(file["outside"])
         corner = tuple(about["corner"])
         cells = Cells(corner, about["resolution"], tuple(about["shape"]), about["side"])
-        return SweepMap(about, cells, _samples(about["samples"]), outside=outside, **arrays)
-    except OSError as error:
-        raise FileError(f"{path}: {error.strerror or 'no map of a sweep'}") from error
-    except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+        samples = _samples(about["samples"])
+        counts, best, attained = (arrays.get(name) for name in ARRAYS)
+        if counts is None:
+            raise KeyError("counts")
+        return SweepMap(about, cells, samples, counts, outside, best, attained)
+    except (ValueError, KeyError, TypeError) as error:
         raise FileError(f"{path}: no map of a sweep, as SweepMap.save writes it") from error
 
 

@@ -61,7 +61,7 @@ def test_a_store_is_gone_on_with_where_it_is_asked(tmp_path, poekin, refused):
         ),
         (("--samples", "1.5"), "--samples: expected a whole number"),
         (("--samples", "0"), "count: expected a whole number from 1 on"),
-        (("--output", "map.csv"), "--output: expected a .npz file"),
+        (("--output", "map.csv"), "--output: expected a .npz file or a .zarr directory"),
         (("--resume",), "--resume: expected with --store"),
         (("--resolution", "0"), "resolution: expected a positive number"),
         (("--resolution", "1e-9"), "at most 2^40 cells"),

@@ -1,4 +1,4 @@
-"""What a map answers, and its file."""
+"""What a map answers."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.errors import FileError, InputError, UnknownName
-from poekin.sweep import Cells, Grid, Random, Sweep, load_map, run
-from tests.sweep.arms import bits, measured, two_links
+from poekin.errors import InputError, UnknownName
+from poekin.sweep import Cells, Grid, Random, Sweep, run
+from tests.sweep.arms import measured, two_links
 
 ARM = two_links()
 CELLS = Cells.box([-1] * 3, [1] * 3, 0.1, side=1)
@@ -74,39 +74,6 @@ def test_the_summary_says_volume_directions_and_measure():
     assert len(COUNTED.summary().split("\n")) == 3
     assert MEASURED.to_dict()["reached_volume"] == pytest.approx(volume)
     assert 0 < once < 0.1
-
-
-@pytest.mark.parametrize("found", [MEASURED, COUNTED], ids=["measured", "counted"])
-def test_a_file_gives_the_map_back(tmp_path, found):
-    found.save(tmp_path / "map.npz")
-    read = load_map(tmp_path / "map.npz")
-    assert read.to_dict() == found.to_dict()
-    assert read.counts.tobytes() == found.counts.tobytes()
-    assert read.cells == found.cells
-    numbers = np.arange(10)
-    np.testing.assert_array_equal(
-        read.samples.configurations(numbers), found.samples.configurations(numbers)
-    )
-    if found.best is not None:
-        assert bits(read) == bits(found)
-        np.testing.assert_array_equal(read.configurations(), found.configurations())
-    assert [file.name for file in tmp_path.iterdir()] == ["map.npz"]
-
-
-def test_a_file_that_holds_no_map_is_refused(tmp_path):
-    with pytest.raises(FileError, match="No such file"):
-        load_map(tmp_path / "none.npz")
-    (tmp_path / "text.npz").write_text("no map")
-    with pytest.raises(FileError, match="no map of a sweep"):
-        load_map(tmp_path / "text.npz")
-    np.savez(tmp_path / "other.npz", counts=np.zeros(3))
-    with pytest.raises(FileError, match=r"no map of a sweep, as SweepMap\.save"):
-        load_map(tmp_path / "other.npz")
-
-
-def test_a_map_that_cannot_be_written_leaves_nothing(tmp_path):
-    with pytest.raises(FileError, match=r"map\.npz"):
-        MEASURED.save(tmp_path / "none" / "map.npz")
 
 
 def test_a_map_shows_itself_in_a_notebook():
