@@ -15,7 +15,8 @@ from ...model.kinematics.arm import Arm, chain_of
 from ...model.provenance import warn
 from ...results import Progress
 from .calibration import Calibration
-from .diagnostics import cross_validation, explanation, misfit, units
+from .causes.most_likely import build_problem
+from .diagnostics import cross_validation, explanation, misfit, units, verdict
 from .diagnostics.cross_validation import CrossValidation
 from .diagnostics.identification import (
     Identification,
@@ -139,7 +140,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     choice(loss, LOSSES, "loss")
     choice(on_rank_deficiency, get_args(OnRankDeficiency), "on_rank_deficiency")
     whole(iterations, "iterations", 1)
-    problem = units.build_problem(ErrorModel(chain, parameters, joints), q, sets)
+    problem = build_problem(ErrorModel(chain, parameters, joints), q, sets)
     sigma = _prior(prior, problem)
     identification, free = identify_directions(problem)
     with_prior = identification
@@ -159,8 +160,13 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     held_out = None
     if folds and problem.n_equations * (folds - 1) // folds > free.shape[1]:
         held_out = cross_validation.cross_validate(problem, free, options, folds, seed, progress)
-    found = _result(problem, before, fit, identification, held_out, loss)
-    found = replace(found, vectors=problem.residual_vectors(start, fit.p))
+    doubts = misfit.contradicted(problem, fit)
+    found = _result(problem, before, fit, identification, held_out, doubts, loss)
+    found = replace(
+        found,
+        vectors=problem.residual_vectors(start, fit.p),
+        verdict=verdict.judge(found, problem, doubts, prior is not None),
+    )
     for words in found.warnings:
         warn(words)
     return found
@@ -172,12 +178,12 @@ def _result(
     fit: Fit,
     identification: Identification,
     held_out: CrossValidation | None,
+    doubts: Sequence[misfit.Contradiction],
     loss: LossName,
 ) -> Calibration:
     """The calibration that a fit makes, with warnings and remarks."""
     after = problem.residuals(fit.p)
     remarks = explanation.explain(problem, before, after)
-    doubts = misfit.contradicted(problem, fit)
     return Calibration(
         nominal=problem.model.nominal,
         chain=problem.model.chain(fit.p[: problem.model_size]),

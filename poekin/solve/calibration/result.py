@@ -64,6 +64,7 @@ class CalibrationData(Result):
     error_model: ErrorModel = field(repr=False)
     warnings: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
+    verdict: tuple[str, ...] = ()
     vectors: ResidualVectors | None = field(default=None, repr=False)
 
     @property

@@ -221,6 +221,25 @@ class Measurement:
         """
         return self._with(unknown_frames=tuple(unknown_frames))
 
+    def with_measured(self, measured: Array) -> Measurement:
+        """Copy with other measured numbers of the same shape, unchecked.
+
+        Parameters
+        ----------
+        measured : ndarray
+            Poses, positions or distances, m.
+
+        Returns
+        -------
+        measurements : Measurement
+            Copy with these numbers.
+
+        Notes
+        -----
+        Raises: nothing, it checks nothing.
+        """
+        return self._with(**{self._measured: measured})
+
     def scaled(self, unit: float) -> Measurement:
         """Copy of the measurements with all lengths in another unit, and without covariance.
 

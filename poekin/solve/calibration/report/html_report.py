@@ -59,6 +59,7 @@ def html(
 def _residuals(found: CalibrationData) -> Iterator[str]:
     held_out = found.cross_validation
     rows = changes.errors(found)
+    yield from (paragraph(f"Do not use it: {words}.") for words in found.verdict)
     yield from (paragraph(f"Warning: {words}.") for words in found.warnings)
     yield from (paragraph(f"{words}.") for words in found.remarks)
     if held_out is None:

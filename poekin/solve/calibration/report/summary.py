@@ -28,6 +28,7 @@ def text_of(found: CalibrationData) -> str:
         str(found.identification),
         *_table(found),
         *outliers,
+        *(f"do not use it: {words}" for words in found.verdict),
         *(f"warning: {words}" for words in found.warnings),
         *found.remarks,
     ]
