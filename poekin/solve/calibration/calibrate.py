@@ -25,11 +25,13 @@ from .diagnostics.identification import (
     identify_directions,
 )
 from .fit import noise
+from .fit.covariance import covariance_of
 from .fit.fitting import Fit, fit_frames
 from .fit.losses import LOSSES, OUTLIER, LossName, chi_square
 from .fit.minimise import STEPS, FitOptions
 from .fit.refit import fit_with_refit
 from .measurements.inputs import parse_measurements, parse_readings
+from .model.configurations import configurations
 from .model.error_model import ErrorModel
 from .model.parameters import ParameterKind, Unit
 from .model.problem import Problem
@@ -158,10 +160,11 @@ def calibrate(  # noqa: PLR0913 - options by keyword
         identification, _ = identify_directions(problem, p=fit.p)
     misfit.check(problem, fit)
     held_out = None
-    if folds and problem.n_equations * (folds - 1) // folds > free.shape[1]:
+    folds = min(folds, int(configurations(q).max()) + 1)
+    if folds > 1 and problem.n_equations * (folds - 1) // folds > free.shape[1]:
         held_out = cross_validation.cross_validate(problem, free, options, folds, seed, progress)
     doubts = misfit.contradicted(problem, fit)
-    found = _result(problem, before, fit, identification, held_out, doubts, loss)
+    found = _result(problem, before, fit, identification, held_out, doubts, options)
     found = replace(
         found,
         vectors=problem.residual_vectors(start, fit.p),
@@ -179,7 +182,7 @@ def _result(
     identification: Identification,
     held_out: CrossValidation | None,
     doubts: Sequence[misfit.Contradiction],
-    loss: LossName,
+    options: FitOptions,
 ) -> Calibration:
     """The calibration that a fit makes, with warnings and remarks."""
     after = problem.residuals(fit.p)
@@ -189,7 +192,7 @@ def _result(
         chain=problem.model.chain(fit.p[: problem.model_size]),
         parameters=problem.parameters,
         values=fit.p,
-        covariance=fit.covariance,
+        covariance=covariance_of(problem, fit, options),
         frames=problem.frame_values(fit.p),
         identification=identification,
         success=fit.converged,
@@ -199,7 +202,7 @@ def _result(
         cross_validation=held_out,
         outliers=_outliers(problem, fit),
         noise_std=fit.noise.noise_std,
-        loss=loss,
+        loss=options.loss,
         error_model=problem.model,
         warnings=(*remarks.warnings, *(doubt.words for doubt in doubts if doubt.ratio > 1)),
         remarks=(*remarks.remarks, *(doubt.words for doubt in doubts if doubt.ratio < 1)),

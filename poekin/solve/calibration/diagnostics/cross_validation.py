@@ -15,6 +15,7 @@ from ..fit.fitting import fit_frames
 from ..fit.minimise import FitOptions
 from ..fit.refit import fit_with_refit
 from ..measurements.measurement import Rows
+from ..model.configurations import configurations
 from ..model.problem import Problem
 from ..model.residuals import Residuals, concatenate
 
@@ -50,15 +51,19 @@ def cross_validate(
     seed: int,
     progress: Progress | None,
 ) -> CrossValidation:
-    """The readings in folds drawn at random; unknown frames are those of the other folds, too."""
-    order = np.random.default_rng(seed).permutation(len(problem.q))
+    """The readings in folds drawn at random, equal and nearly equal ones in the same; unknown frames
+    are those of the other folds, too.
+    """
+    label = configurations(problem.q)
+    order = np.random.default_rng(seed).permutation(label.max() + 1)
     before = []
     after = []
     for k, drawn in enumerate(np.array_split(order, folds)):
         if progress is not None:
             progress(k, folds)
-        chosen = np.sort(drawn)
-        training = problem.part(np.setdiff1d(order, chosen))
+        held_out = np.isin(label, drawn)
+        chosen = np.flatnonzero(held_out)
+        training = problem.part(np.flatnonzero(~held_out))
         test = problem.part(chosen)
         p = fit_frames(training, options.loss)
         fit = fit_with_refit(training, free, p, options)

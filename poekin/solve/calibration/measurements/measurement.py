@@ -226,8 +226,8 @@ class Measurement:
 
         Parameters
         ----------
-        measured : ndarray
-            Poses, positions or distances, m.
+        measured : (N, 4, 4), (N, k, 3) or (N,) ndarray
+            Poses, positions or distances, m, in the frame of those that they replace.
 
         Returns
         -------
