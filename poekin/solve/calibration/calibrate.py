@@ -153,21 +153,24 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     folds = cross_validation.check_folds(folds, len(q), seed)
     start = fit_frames(problem, loss)
     units.check(problem, start)
-    before = problem.residuals(start)  # now, while the problem has these errors
+    # now, while the problem has these errors
+    before = problem.residuals(start)
+    points = problem.points(start)
     options = FitOptions(loss, sigma, iterations)
     fit = fit_with_refit(problem, free, start, options)
     if fit.free is not free:
         identification, _ = identify_directions(problem, p=fit.p)
     misfit.check(problem, fit)
     held_out = None
-    folds = min(folds, int(configurations(q).max()) + 1)
+    if folds:
+        folds = min(folds, int(configurations(q).max()) + 1)
     if folds > 1 and problem.n_equations * (folds - 1) // folds > free.shape[1]:
         held_out = cross_validation.cross_validate(problem, free, options, folds, seed, progress)
     doubts = misfit.contradicted(problem, fit)
     found = _result(problem, before, fit, identification, held_out, doubts, options)
     found = replace(
         found,
-        vectors=problem.residual_vectors(start, fit.p),
+        vectors=problem.residual_vectors(points, fit.p),
         verdict=verdict.judge(found, problem, doubts, prior is not None),
     )
     for words in found.warnings:

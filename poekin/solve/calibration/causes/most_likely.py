@@ -20,6 +20,7 @@ from ..model.residuals import Residuals
 from . import other_data, readings
 from .other_data import Other
 
+_FAR = 0.01  # rad and reaches, together: a nominal arm that is off by less may just be so
 _BETTER = 3.0  # how many times better a cause has to explain the data
 _FREE = 1.5  # how many times better than other causes one with frames that were fitted has to
 _MOST_ROWS = 12
@@ -53,6 +54,8 @@ def most_likely(model: ErrorModel, q: Array, sets: Sequence[Measurement]) -> Cau
     A cause whose base or tool was fitted has to be better than one that fits nothing.
     """
     stand = _miss(model, q, sets)
+    if stand is not None and stand.size < _FAR:
+        return None
     least = np.inf if stand is None else stand.size
     found: Cause | None = None
     least /= _BETTER

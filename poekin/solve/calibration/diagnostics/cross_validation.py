@@ -54,14 +54,13 @@ def cross_validate(
     """The readings in folds drawn at random, equal and nearly equal ones in the same; unknown frames
     are those of the other folds, too.
     """
-    label = configurations(problem.q)
-    order = np.random.default_rng(seed).permutation(label.max() + 1)
+    fold = _folds(problem.q, folds, seed)
     before = []
     after = []
-    for k, drawn in enumerate(np.array_split(order, folds)):
+    for k in range(folds):
         if progress is not None:
             progress(k, folds)
-        held_out = np.isin(label, drawn)
+        held_out = fold == k
         chosen = np.flatnonzero(held_out)
         training = problem.part(np.flatnonzero(~held_out))
         test = problem.part(chosen)
@@ -72,6 +71,19 @@ def cross_validate(
     if progress is not None:
         progress(folds, folds)
     return CrossValidation(concatenate(before), concatenate(after), folds)
+
+
+def _folds(q: Array, folds: int, seed: int) -> Rows:
+    """Fold (N,) of each of the readings, drawn by their configurations."""
+    label = configurations(q)
+    _, first = np.unique(label, return_index=True)
+    order = np.random.default_rng(seed).permutation(len(q))
+    # each configuration as its first reading is drawn
+    order = label[order[np.isin(order, first)]]
+    found = np.empty(len(first), np.intp)
+    for k, drawn in enumerate(np.array_split(order, folds)):
+        found[drawn] = k
+    return found[label]
 
 
 def _held_out_residuals(test: Problem, p: Array, chosen: Rows) -> Residuals:

@@ -44,13 +44,15 @@ def judge(
     sound.
     """
     reasons = [*_held_out(found), *_left(found, problem, doubts), *_moved(found)]
-    if reasons:
-        cause = most_likely(problem.model, problem.q, problem.sets)
-        if cause is not None:
-            reasons[0] = f"{reasons[0]}; most likely: {cause}"
-    if not has_prior:
-        reasons += _condition(found, problem)
-    return tuple(reasons)
+    condition = [] if has_prior else list(_condition(found, problem))
+    if not reasons:
+        return tuple(condition)
+    cause = most_likely(problem.model, problem.q, problem.sets)
+    if cause is None:
+        # it is why the others are
+        return (*condition, *reasons)
+    first, *others = reasons
+    return (f"{first}; most likely: {cause}", *others, *condition)
 
 
 def _held_out(found: CalibrationData) -> Iterator[str]:
@@ -117,22 +119,32 @@ def _moved(found: CalibrationData) -> Iterator[str]:
     lengths = norms(translation_part(nominal.local.frames))
     lengths = np.maximum(lengths, _LEAST_LINK * nominal.reach)
     links = dict(zip(nominal.joint_names, np.maximum(lengths[:-1], lengths[1:]), strict=True))
-    for joint in changes.joints(found):
-        tilt = joint.tilt.size
-        shift = joint.shift.size
-        if tilt > AXIS_TILT or shift > AXIS_SHIFT * links[joint.name]:
+    tilts = dict.fromkeys(nominal.joint_names, 0.0)
+    shifts = tilts.copy()
+    own = found.error_model.parameters
+    for parameter, value in zip(own, found.values.tolist(), strict=False):
+        for word, sizes in ((changes.TILT, tilts), (changes.SHIFT, shifts)):
+            if parameter.what.startswith(word):
+                sizes[parameter.owner] = math.hypot(sizes[parameter.owner], value)
+    for name, link in links.items():
+        if tilts[name] > AXIS_TILT or shifts[name] > AXIS_SHIFT * link:
             yield (
-                f"the axis of {joint.name} moves by {math.degrees(tilt):.3g}° and "
-                f"{1e3 * np.nan_to_num(shift):.3g} mm, further than that of any arm is off"
+                f"the axis of {name} moves by {_degrees(tilts[name])}° and "
+                f"{1e3 * shifts[name]:.3g} mm, further than that of any arm is off"
             )
-    errors = found.error_model.errors(found.values[: len(found.error_model.parameters)])
+    errors = found.error_model.errors(found.values[: len(own)])
     turn = norm(errors.home[:3])
     shift = norm(errors.home[3:])
     if turn > AXIS_TILT or shift > TIP_SHIFT:
-        yield f"the tip moves by {math.degrees(turn):.3g}° and {1e3 * shift:.3g} mm, to another one"
+        yield f"the tip moves by {_degrees(turn)}° and {1e3 * shift:.3g} mm, to another one"
     for k in np.flatnonzero(np.abs(errors.offsets) > AXIS_TILT).tolist():
         if nominal.is_angle(k):
-            yield f"the zero of {nominal.q_names[k]} moves by {math.degrees(errors.offsets[k]):.3g}°"
+            yield f"the zero of {nominal.q_names[k]} moves by {_degrees(errors.offsets[k])}°"
+
+
+def _degrees(angle: float) -> str:
+    """An angle in degrees; one far below them is rounding."""
+    return f"{round(math.degrees(angle), 9) + 0.0:.3g}"
 
 
 def _condition(found: CalibrationData, problem: Problem) -> Iterator[str]:

@@ -34,7 +34,8 @@ def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
     A = fit.jacobian
     if options.prior is not None:
         A = np.concatenate([A, (1.0 / options.prior)[:, None] * B])
-    inverse = _inverse(qr_r(A))
+    R = qr_r(A) if fit.triangle is None else fit.triangle
+    inverse = _inverse(R)
     half = B @ inverse
     clusters = _clusters(problem)
     if clusters is not None:

@@ -22,7 +22,8 @@ _SAME = 1e-2  # noise that changes by less is settled: it is known to some per c
 
 class Fit(NamedTuple):
     """Parameters p, in their units; whether it converged; the steps; the noise; the directions
-    (P, k) that were free, in rad and reaches, and the whitened Jacobian (M, k) in these.
+    (P, k) that were free, in rad and reaches; the whitened Jacobian (M, k) in these and its
+    triangle, as of `Minimum`.
     """
 
     p: Array
@@ -31,6 +32,7 @@ class Fit(NamedTuple):
     noise: Noise
     free: Array
     jacobian: Array
+    triangle: Array | None = None
 
 
 def fit_frames(problem: Problem, name: LossName) -> Array:
@@ -69,7 +71,7 @@ def fit_parameters(problem: Problem, free: Array, p: Array, options: FitOptions)
         if len(steps) >= most:
             outcome = outcome._replace(converged=False)
             break
-    return Fit(p, outcome.converged, steps, noise, free, outcome.jacobian)
+    return Fit(p, outcome.converged, steps, noise, free, outcome.jacobian, outcome.triangle)
 
 
 def _noise(
