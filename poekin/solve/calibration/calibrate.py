@@ -88,7 +88,8 @@ def calibrate(  # noqa: PLR0913 - options by keyword
         them.
     folds : int, default 5
         Parts of the readings that are held out in turn, to be predicted by a calibration from the
-        others; 0 for none, as where the others were too few.
+        others; equal and nearly equal readings (to 1e-3 rad and m) stay together. 0 for none, as
+        where the others were too few.
     seed : int, default 0
         Seed of the drawing of the folds.
     iterations : int, default 100
@@ -100,6 +101,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     -------
     found : Calibration
         `success` is False where the search did not converge: then it holds the best that was found.
+        `verdict` has the reasons not to use it, none where it is sound.
 
     Raises
     ------
@@ -120,7 +122,9 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     Accuracy: with exact data the pose of the calibrated arm is right to 1e-12 m; axes stay unit and
     pitches what they are to 1e-15 (tests/solve/calibration). Where the nominal arm is special, as
     with a measured point on its last axis, what the true arm shows in second order only is found
-    too, as far as it is more than noise. Source: Park 1994, Section V, the POE as the smooth
+    too, as far as it is more than noise. Where a configuration carries more than three numbers of
+    unknown covariance, the covariance is the jackknife's by configuration (Bell and McCaffrey 2002,
+    CR3); one that is given is believed. Source: Park 1994, Section V, the POE as the smooth
     parametrisation for calibration; Okamura and Park 1996 for moving screws by conjugation; 4 r +
     2 p + 6 parameters: Everett and Hsu 1988.
 
@@ -162,6 +166,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
         identification, _ = identify_directions(problem, p=fit.p)
     misfit.check(problem, fit)
     held_out = None
+    to_hold_out = folds > 0
     if folds:
         folds = min(folds, int(configurations(q).max()) + 1)
     if folds > 1 and problem.n_equations * (folds - 1) // folds > free.shape[1]:
@@ -171,7 +176,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     found = replace(
         found,
         vectors=problem.residual_vectors(points, fit.p),
-        verdict=verdict.judge(found, problem, doubts, prior is not None),
+        verdict=verdict.judge(found, problem, doubts, prior is not None, to_hold_out),
     )
     for words in found.warnings:
         warn(words)

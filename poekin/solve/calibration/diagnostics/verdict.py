@@ -39,11 +39,15 @@ def judge(
     problem: Problem,
     doubts: Sequence[Contradiction],
     has_prior: bool,
+    to_hold_out: bool,
 ) -> tuple[str, ...]:
     """Reasons not to use the calibrated arm, the likely cause with the first; none where it is
     sound.
+
+    has_prior: of any parameters; to_hold_out: whether data were to be held out, should they be
+    enough for that.
     """
-    reasons = [*_held_out(found), *_left(found, problem, doubts), *_moved(found)]
+    reasons = [*_held_out(found, to_hold_out), *_left(found, problem, doubts), *_moved(found)]
     condition = [] if has_prior else list(_condition(found, problem))
     if not reasons:
         return tuple(condition)
@@ -55,10 +59,18 @@ def judge(
     return (f"{first}; most likely: {cause}", *others, *condition)
 
 
-def _held_out(found: CalibrationData) -> Iterator[str]:
-    """Held-out data that are predicted no better than by the nominal arm, or by chance."""
+def _held_out(found: CalibrationData, to_hold_out: bool) -> Iterator[str]:
+    """Held-out data that are predicted no better than by the nominal arm, or by chance; too few to
+    hold any out.
+    """
     held_out = found.cross_validation
     if held_out is None:
+        if to_hold_out:
+            yield (
+                f"{found.identification.n_equations} equations for {len(found.values)} parameters "
+                "are too few to hold some out, and nothing shows that the calibrated arm is better:"
+                " measure more, or calibrate fewer parameters"
+            )
         return
     before = _by_configuration(held_out.before)
     after = _by_configuration(held_out.after)

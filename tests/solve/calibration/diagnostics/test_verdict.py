@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -32,9 +33,11 @@ def reasons(monkeypatch):
     """Reasons of a result, without causes."""
     monkeypatch.setattr(verdict, "most_likely", lambda *given: None)
 
-    def judged(found: Any, doubts: Any = (), has_prior: bool = False) -> tuple[str, ...]:
+    def judged(
+        found: Any, doubts: Any = (), has_prior: bool = False, to_hold_out: bool = True
+    ) -> tuple[str, ...]:
         problem: Any = SimpleNamespace(sets=[Set(range(40))], model=None, q=None)
-        return verdict.judge(found, problem, doubts, has_prior)
+        return verdict.judge(found, problem, doubts, has_prior, to_hold_out)
 
     return judged
 
@@ -90,6 +93,13 @@ def test_a_gain_on_held_out_data_has_to_be_more_than_chance(reasons, margin, few
         assert found[0].startswith("16 configurations for 30 parameters are too few")
 
 
+def test_data_that_are_too_few_to_hold_some_out_are_a_reason_unless_none_were_to_be(reasons):
+    none = replace(FOUND, cross_validation=None)
+    (words,) = reasons(none)
+    assert words.startswith("240 equations for 30 parameters are too few to hold some out")
+    assert reasons(none, to_hold_out=False) == ()
+
+
 @pytest.mark.parametrize(("off", "said"), [(4.9e-3, False), (5.1e-3, True)])
 def test_a_residual_of_more_than_five_millimetres_is_a_reason(reasons, off, said):
     (*words,) = reasons(replace(FOUND, after=residuals(np.full(40, off))))
@@ -128,7 +138,7 @@ def test_a_zero_of_more_than_three_degrees_is_a_reason(reasons):
     for degrees, said in ((2.9, 0), (-3.1, 1)):
         values = np.zeros(6)
         values[1] = np.radians(degrees)
-        words = reasons(replace(found, values=values))
+        words = reasons(replace(found, values=values), to_hold_out=False)
         assert [w for w in words if "zero" in w] == [
             "the zero of shoulder_lift_joint moves by -3.1°"
         ] * said
@@ -151,5 +161,34 @@ def test_the_first_reason_has_the_likely_cause(monkeypatch):
     monkeypatch.setattr(verdict, "most_likely", lambda *given: "the cause")
     problem: Any = SimpleNamespace(sets=[Set(range(40))], model=None, q=None)
     found = held_out(np.full(40, 1e-3), np.full(40, 2e-3))
-    (words,) = verdict.judge(found, problem, [], False)
+    (words,) = verdict.judge(found, problem, [], False, True)
     assert words.endswith("(rms); most likely: the cause")
+
+
+def test_a_condition_without_a_likely_cause_is_the_first_reason_as_the_others_follow_from_it(
+    reasons,
+):
+    can = replace(FOUND.identification, condition=2e3)
+    found = replace(moved("elbow_joint: tilt", 0.1), identification=can)
+    first, second = reasons(found)
+    assert first.startswith("some parameters are seen 2e+03 times less than others")
+    assert second.startswith("the axis of elbow_joint moves by 5.73°")
+
+
+def test_the_prior_that_is_named_makes_a_calibration_sound():
+    """A reflector 0.1 mm off the last axis hardly tells that axis."""
+    made = simulated(ARM, 150, kind="points", points=[1e-4, 0.0, 0.03], noise=(1e-4, 5e-5), seed=3)
+    points = pk.calibration.Points(made.measurements.p, [1e-4, 0.0, 0.03])  # type: ignore[attr-defined]
+    loose = calibrate(ARM, made.q, points, folds=3)
+    assert loose.identification.condition > 1e3
+    first = loose.verdict[0]
+    told = first[first.index("prior=") + len("prior=") :]
+    prior = ast.literal_eval(told)
+    assert set(prior) == {"rad", "m"}
+    held = calibrate(ARM, made.q, points, folds=3, prior=prior)
+    assert held.verdict == ()
+    # as the prior says what the condition is of: singular values over the noise, with the prior's own
+    noise = loose.noise_std[0]
+    assert noise is not None
+    largest = loose.identification.singular_values[0] * ARM.reach / noise.length
+    assert np.hypot(largest, 1 / prior["m"]) * prior["m"] < 1.5e3
