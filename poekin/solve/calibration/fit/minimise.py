@@ -34,7 +34,7 @@ _BENDING = 0.375
 # the square of the noise
 _SLOW = 10
 _LIGHT = 1e-6
-_CHANCE = 1e-3
+_CHANCE = 1e-4
 
 
 class FitOptions(NamedTuple):
@@ -171,7 +171,7 @@ def minimise(
         steps.append(Step(cost, norm(trial.z), damping.value))
         predicted = _predicted(linear, trial.z)
         slight = predicted < _CHANCE * cost / max(len(rows) - rows.shape[1], 1)
-        done = done or (slight and len(steps) > _SLOW and damping.value < _LIGHT)
+        done = done or (slight and len(steps) > _SLOW and 0.0 < damping.value < _LIGHT)
         damping.fall(cost - trial.cost, predicted)
         p = trial.p
         cost = trial.cost
