@@ -49,6 +49,9 @@ SLOW = (
     *(
         "solve/calibration/fit/test_initial_guess.py",
         "solve/calibration/report/test_html_report.py",
+        "solve/calibration/causes/test_wrong_data.py",
+        "solve/calibration/fit/test_coverage.py",
+        "solve/calibration/fit/test_cubes.py",
     ),
     *("formats/urdf_in_place/test_in_place.py", "formats/relink/test_relinked.py"),
     *("formats/test_urdf_text.py", "cli/formats/test_draw.py"),

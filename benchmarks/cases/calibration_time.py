@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 from poekin import Chain, load
 from poekin.solve import calibration as cal
 from poekin.solve.calibration.diagnostics.identification import identify_directions
+from poekin.solve.calibration.fit.covariance import covariance_of
 from poekin.solve.calibration.fit.fitting import fit_parameters
 from poekin.solve.calibration.fit.minimise import FitOptions
 from poekin.solve.calibration.model.error_model import ErrorModel
@@ -149,9 +150,12 @@ def prepared(task: Task) -> tuple[Problem, np.ndarray]:
 
 
 def fit_alone(state: tuple[Problem, np.ndarray]):  # type: ignore[no-untyped-def]
-    """The fit from the nominal arm on."""
+    """The fit from the nominal arm on, with its covariance."""
     problem, free = state
-    return fit_parameters(problem, free, np.zeros(problem.size), FitOptions("linear"))
+    options = FitOptions("linear")
+    fit = fit_parameters(problem, free, np.zeros(problem.size), options)
+    covariance_of(problem, fit, options)
+    return fit
 
 
 def residuals(task: Task):  # type: ignore[no-untyped-def]

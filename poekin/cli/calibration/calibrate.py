@@ -34,7 +34,7 @@ from .outputs import ENDINGS, Outputs, say_written
 
 Texts = list[str] | None
 Number = float | None
-NOT_CONVERGED = 1
+BAD = 1
 KIND = (
     "What poses are: poses, eye-in-hand or eye-to-hand; else points or distances. "
     "Once for all files, or once a file."
@@ -168,7 +168,7 @@ def command(
     json: Json = False,
 ) -> None:
     """The axes and home pose of an arm as measurements say they are. Exit code 0 done, 1 not
-    converged, 2 error.
+    converged or not to be used, as its first line says, 2 error.
     """
     outputs = Outputs(list(output or ()), convention, report)
     for place in outputs.paths:
@@ -210,6 +210,8 @@ def command(
             found = _calibrated(chain, given, options)
     except (InputError, UnknownName) as fault:
         raise type(fault)(_as_options(str(fault))) from fault
+    # the controller's own poses are judged by their digits
+    verdict = () if exact else found.verdict
     drawn = None if draw is None else view(found)
     try:
         outputs.write(found, robot, given.sources)
@@ -221,12 +223,14 @@ def command(
             more = {} if of_fk is None else {"exact": of_fk.to_dict()}
             print(as_json(_document(found, robot, given, outputs.written) | more))
         else:
+            if verdict:
+                say(f"Do NOT use this calibration: {_as_options(verdict[0])}.")
             _show(found, robot, given, outputs)
             if of_fk is not None:
                 say(f"\n{of_fk}")
     if not found.success:
         complain("the search did not converge: this is the best that was found")
-    raise typer.Exit(0 if found.success else NOT_CONVERGED)
+    raise typer.Exit(BAD if verdict or not found.success else 0)
 
 
 def _calibrated(chain: Chain, given: Measured, options: dict[str, Any]) -> Calibration:
@@ -255,6 +259,11 @@ _OPTIONS = {
     "give radians (numpy.deg2rad)": "--deg says so",
     "(divide by 1000)": "(divide by 1000, or --mm, which is of sliding joints too)",
     "points: ": "--point: ",
+    "points=(": "--point (",
+    "frame='unknown'": "--frame unknown",
+    "centre=None": "no --centre",
+    "loss='huber'": "--loss huber",
+    "prior={'rad'": "--prior-angle and --prior-length {'rad'",
     "parameters=": "--parameters",
     "joints=": "--joints",
     "prior['rad']": "--prior-angle",

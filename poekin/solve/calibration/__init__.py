@@ -8,6 +8,7 @@ from .design.choose import choose_poses
 from .design.observability import ObservabilityIndices, observability_indices
 from .diagnostics.cross_validation import CrossValidation
 from .diagnostics.identification import Identification, identify
+from .diagnostics.uncertainty import Workspace
 from .exact.from_fk import from_fk
 from .exact.from_fk_result import FromFk, PoseErrors
 from .fit.noise import NoiseEstimate
@@ -40,6 +41,7 @@ __all__ = [
     "Poses",
     "Residuals",
     "Simulated",
+    "Workspace",
     "apply",
     "calibrate",
     "choose_poses",

@@ -15,7 +15,8 @@ from ...model.kinematics.arm import Arm, chain_of
 from ...model.provenance import warn
 from ...results import Progress
 from .calibration import Calibration
-from .diagnostics import cross_validation, explanation, misfit, units
+from .causes.most_likely import build_problem
+from .diagnostics import cross_validation, explanation, misfit, units, verdict
 from .diagnostics.cross_validation import CrossValidation
 from .diagnostics.identification import (
     Identification,
@@ -24,11 +25,13 @@ from .diagnostics.identification import (
     identify_directions,
 )
 from .fit import noise
+from .fit.covariance import covariance_of
 from .fit.fitting import Fit, fit_frames
 from .fit.losses import LOSSES, OUTLIER, LossName, chi_square
 from .fit.minimise import STEPS, FitOptions
 from .fit.refit import fit_with_refit
 from .measurements.inputs import parse_measurements, parse_readings
+from .model.configurations import configurations
 from .model.error_model import ErrorModel
 from .model.parameters import ParameterKind, Unit
 from .model.problem import Problem
@@ -85,7 +88,8 @@ def calibrate(  # noqa: PLR0913 - options by keyword
         them.
     folds : int, default 5
         Parts of the readings that are held out in turn, to be predicted by a calibration from the
-        others; 0 for none, as where the others were too few.
+        others; equal and nearly equal readings (to 1e-3 rad and m) stay together. 0 for none, as
+        where the others were too few.
     seed : int, default 0
         Seed of the drawing of the folds.
     iterations : int, default 100
@@ -97,6 +101,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     -------
     found : Calibration
         `success` is False where the search did not converge: then it holds the best that was found.
+        `verdict` has the reasons not to use it, none where it is sound.
 
     Raises
     ------
@@ -117,7 +122,9 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     Accuracy: with exact data the pose of the calibrated arm is right to 1e-12 m; axes stay unit and
     pitches what they are to 1e-15 (tests/solve/calibration). Where the nominal arm is special, as
     with a measured point on its last axis, what the true arm shows in second order only is found
-    too, as far as it is more than noise. Source: Park 1994, Section V, the POE as the smooth
+    too, as far as it is more than noise. Where a configuration carries more than three numbers of
+    unknown covariance, the covariance is the jackknife's by configuration (Bell and McCaffrey 2002,
+    CR3); one that is given is believed. Source: Park 1994, Section V, the POE as the smooth
     parametrisation for calibration; Okamura and Park 1996 for moving screws by conjugation; 4 r +
     2 p + 6 parameters: Everett and Hsu 1988.
 
@@ -139,7 +146,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     choice(loss, LOSSES, "loss")
     choice(on_rank_deficiency, get_args(OnRankDeficiency), "on_rank_deficiency")
     whole(iterations, "iterations", 1)
-    problem = units.build_problem(ErrorModel(chain, parameters, joints), q, sets)
+    problem = build_problem(ErrorModel(chain, parameters, joints), q, sets)
     sigma = _prior(prior, problem)
     identification, free = identify_directions(problem)
     with_prior = identification
@@ -150,17 +157,27 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     folds = cross_validation.check_folds(folds, len(q), seed)
     start = fit_frames(problem, loss)
     units.check(problem, start)
-    before = problem.residuals(start)  # now, while the problem has these errors
+    # now, while the problem has these errors
+    before = problem.residuals(start)
+    points = problem.points(start)
     options = FitOptions(loss, sigma, iterations)
     fit = fit_with_refit(problem, free, start, options)
     if fit.free is not free:
         identification, _ = identify_directions(problem, p=fit.p)
     misfit.check(problem, fit)
     held_out = None
-    if folds and problem.n_equations * (folds - 1) // folds > free.shape[1]:
+    to_hold_out = folds > 0
+    if folds:
+        folds = min(folds, int(configurations(q).max()) + 1)
+    if folds > 1 and problem.n_equations * (folds - 1) // folds > free.shape[1]:
         held_out = cross_validation.cross_validate(problem, free, options, folds, seed, progress)
-    found = _result(problem, before, fit, identification, held_out, loss)
-    found = replace(found, vectors=problem.residual_vectors(start, fit.p))
+    doubts = misfit.contradicted(problem, fit)
+    found = _result(problem, before, fit, identification, held_out, doubts, options)
+    found = replace(
+        found,
+        vectors=problem.residual_vectors(points, fit.p),
+        verdict=verdict.judge(found, problem, doubts, prior is not None, to_hold_out),
+    )
     for words in found.warnings:
         warn(words)
     return found
@@ -172,18 +189,18 @@ def _result(
     fit: Fit,
     identification: Identification,
     held_out: CrossValidation | None,
-    loss: LossName,
+    doubts: Sequence[misfit.Contradiction],
+    options: FitOptions,
 ) -> Calibration:
     """The calibration that a fit makes, with warnings and remarks."""
     after = problem.residuals(fit.p)
     remarks = explanation.explain(problem, before, after)
-    doubts = misfit.contradicted(problem, fit)
     return Calibration(
         nominal=problem.model.nominal,
         chain=problem.model.chain(fit.p[: problem.model_size]),
         parameters=problem.parameters,
         values=fit.p,
-        covariance=fit.covariance,
+        covariance=covariance_of(problem, fit, options),
         frames=problem.frame_values(fit.p),
         identification=identification,
         success=fit.converged,
@@ -193,7 +210,7 @@ def _result(
         cross_validation=held_out,
         outliers=_outliers(problem, fit),
         noise_std=fit.noise.noise_std,
-        loss=loss,
+        loss=options.loss,
         error_model=problem.model,
         warnings=(*remarks.warnings, *(doubt.words for doubt in doubts if doubt.ratio > 1)),
         remarks=(*remarks.remarks, *(doubt.words for doubt in doubts if doubt.ratio < 1)),

@@ -57,6 +57,9 @@ class Calibration(CalibrationData):
     remarks : tuple of str
         The nominal arm is off by as much, as its base is elsewhere, or residuals are smaller than a
         covariance.
+    verdict : tuple of str
+        Reasons not to use the calibrated arm, none where it is sound; the first names the cause
+        that explains the measurements best, with the error that it would leave.
     vectors : ResidualVectors or None
         Readings, measured points and their residuals in the base frame; None where it was loaded
         from a file, which does not hold the measurements.

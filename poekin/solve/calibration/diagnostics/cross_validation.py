@@ -15,6 +15,7 @@ from ..fit.fitting import fit_frames
 from ..fit.minimise import FitOptions
 from ..fit.refit import fit_with_refit
 from ..measurements.measurement import Rows
+from ..model.configurations import configurations
 from ..model.problem import Problem
 from ..model.residuals import Residuals, concatenate
 
@@ -50,15 +51,18 @@ def cross_validate(
     seed: int,
     progress: Progress | None,
 ) -> CrossValidation:
-    """The readings in folds drawn at random; unknown frames are those of the other folds, too."""
-    order = np.random.default_rng(seed).permutation(len(problem.q))
+    """The readings in folds drawn at random, equal and nearly equal ones in the same; unknown frames
+    are those of the other folds, too.
+    """
+    fold = _folds(problem.q, folds, seed)
     before = []
     after = []
-    for k, drawn in enumerate(np.array_split(order, folds)):
+    for k in range(folds):
         if progress is not None:
             progress(k, folds)
-        chosen = np.sort(drawn)
-        training = problem.part(np.setdiff1d(order, chosen))
+        held_out = fold == k
+        chosen = np.flatnonzero(held_out)
+        training = problem.part(np.flatnonzero(~held_out))
         test = problem.part(chosen)
         p = fit_frames(training, options.loss)
         fit = fit_with_refit(training, free, p, options)
@@ -67,6 +71,19 @@ def cross_validate(
     if progress is not None:
         progress(folds, folds)
     return CrossValidation(concatenate(before), concatenate(after), folds)
+
+
+def _folds(q: Array, folds: int, seed: int) -> Rows:
+    """Fold (N,) of each of the readings, drawn by their configurations."""
+    label = configurations(q)
+    _, first = np.unique(label, return_index=True)
+    order = np.random.default_rng(seed).permutation(len(q))
+    # each configuration as its first reading is drawn
+    order = label[order[np.isin(order, first)]]
+    found = np.empty(len(first), np.intp)
+    for k, drawn in enumerate(np.array_split(order, folds)):
+        found[drawn] = k
+    return found[label]
 
 
 def _held_out_residuals(test: Problem, p: Array, chosen: Rows) -> Residuals:

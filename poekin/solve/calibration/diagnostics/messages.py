@@ -76,11 +76,13 @@ def unobserved(problem: Problem, N: Array, unidentifiable: Array) -> list[str]:
     did not change in them.
     """
     words = directions(problem, N, unidentifiable)
+    if not words:
+        return words
     rows = np.unique(np.concatenate(problem.rows))
     used = problem.q[rows]
     pairs = zip(problem.model.nominal.q_names, used.T, strict=True)
     still = [name for name, column in pairs if np.ptp(column) <= _STILL]
-    if words and still:
+    if still:
         are = "are"
         if len(still) == 1:
             are = "is"

@@ -9,10 +9,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ....errors import InputError
+from ..causes.most_likely import most_likely
 from ..fit.fitting import Fit
 from ..fit.losses import OUTLIER, chi_square
 from ..model.problem import Problem
-from .explanation import explained, far, hint, median, set_name
+from .explanation import far, median, set_name
 
 TIMES = 3.0
 """Standard deviations that are given are contradicted by residuals this many times as large, or as
@@ -41,16 +42,17 @@ def check(problem: Problem, fit: Fit) -> None:
         if noise or not far(off, reach):
             continue
         which = set_name(problem.sets, k, "these")
-        other = explained(problem, k)
-        near = ""
-        if other is not None and not far(other.left, reach):
-            advice = hint(s, other, reach)
-            near = f" With {other}, the nominal arm is off by {other.left} only: {advice}."
+        cause = most_likely(problem.model, problem.q, problem.sets)
+        why = (
+            "is it this arm, does each row of q belong to its measurement, are the joints in order "
+            "and their signs right, and is each measured in the frame and of the point that it is "
+            "said to be?"
+        )
+        if cause is not None:
+            why = f"most likely: {cause}"
         raise InputError(
             f"no arm near the nominal one explains {which}: the best that was found is off by {off}"
-            " in the median; is it this arm, does each row of q belong to its measurement, are the "
-            "joints in order and their signs right, and is each measured in the frame and of the "
-            f"point that it is said to be?{near}"
+            f" in the median; {why}"
         )
 
 

@@ -4,7 +4,6 @@ converted.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,8 +13,6 @@ from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.sampling import angle_mask
 from ..fit.fitting import fit_frames
-from ..measurements.measurement import Measurement
-from ..model.error_model import ErrorModel
 from ..model.problem import Problem
 
 LARGE = 0.1  # reaches: a nominal arm is off by millimetres
@@ -38,7 +35,7 @@ _DEGREES = Units(
     "the joint angles look like degrees: give radians (numpy.deg2rad)",
     angle=_TURN / 360.0,
 )
-_TRIES = (
+TRIES = (
     Units(
         "the lengths look like millimetres: give metres (divide by 1000)",
         length=1e-3,
@@ -76,28 +73,13 @@ def check(problem: Problem, p: Array) -> None:
         return
     # in the units as they stand: whatever the model, lengths made a thousandth are off by a
     # thousandth
-    found = {units: _tried(problem, units) / units.length for units in _TRIES}
+    found = {units: _tried(problem, units) / units.length for units in TRIES}
     best = min(found, key=found.__getitem__)
     if found[best] * _BETTER < off:
         raise InputError(
             f"the nominal arm is off by {off:.3g} m (median) as the data stand, and by "
             f"{found[best] * best.length:.3g} m where {best.words}"
         )
-
-
-def build_problem(model: ErrorModel, q: Array, sets: Sequence[Measurement]) -> Problem:
-    """The problem with initial guesses of its unknown frames.
-
-    Raises: InputError where there is no guess; it says so if there were one, were q in degrees.
-    """
-    try:
-        return Problem(model, q, sets)
-    except InputError as fault:
-        try:
-            Problem(model, converted(model.nominal, q, _DEGREES), sets)
-        except InputError:
-            raise fault from None
-        raise InputError(f"{_DEGREES.words}; as the data stand, {fault}") from fault
 
 
 def converted(chain: Chain, q: Array, units: Units) -> Array:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -13,8 +11,8 @@ from ....groups import se3
 from ....groups.arrays import Array
 from ....groups.vectors import norms
 from ....model.chain import Chain
-from ....model.sampling import angle_mask
 from ..calibration import Calibration
+from ..causes.readings import other_readings
 from ..diagnostics.explanation import Size, far, size_of
 from ..diagnostics.messages import MOST
 from ..fit import initial_guess
@@ -60,7 +58,7 @@ def hint(chain: Chain, q: Array, poses: Poses) -> str:
     as_given = _missed(chain, q, poses)
     length = np.inf
     words = ""
-    for other in _readings(chain, q):
+    for other in other_readings(chain, q):
         missed = _missed(chain, other.q, poses)
         if missed < length:
             length = missed
@@ -127,36 +125,6 @@ def _missed(chain: Chain, q: Array, poses: Poses) -> float:
     if far(miss, chain.reach):
         return np.inf
     return miss.length
-
-
-class _Reading(NamedTuple):
-    """Joint readings (N, m) taken otherwise, and that in words."""
-
-    q: Array
-    words: str
-
-
-def _readings(chain: Chain, q: Array) -> Iterator[_Reading]:
-    """The joint readings taken otherwise, and that in words: they follow one another, are reversed,
-    or stand in another order.
-    """
-    names = [escape_unprintable(name, 40) for name in chain.q_names]
-    turns = np.flatnonzero(angle_mask(chain)).tolist()
-    for i, j in itertools.permutations(turns, 2):
-        for sign, word in ((1.0, "+"), (-1.0, "-")):
-            other = q.copy()
-            other[:, i] += sign * q[:, j]
-            words = f"{names[i]} = {names[i]} {word} {names[j]}"
-            yield _Reading(other, f"the readings coupled, {words!r}")
-    for i in range(chain.dof):
-        other = q.copy()
-        other[:, i] *= -1.0
-        yield _Reading(other, f"{names[i]} reversed")
-    for j, i in itertools.combinations(range(chain.dof), 2):
-        other = q.copy()
-        other[:, i] = q[:, j]
-        other[:, j] = q[:, i]
-        yield _Reading(other, f"{names[j]} and {names[i]} exchanged")
 
 
 def _frames(chain: Chain, q: Array, poses: Poses) -> tuple[Array, Array] | None:

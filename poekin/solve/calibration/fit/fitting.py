@@ -10,9 +10,8 @@ import numpy as np
 
 from ....groups.arrays import Array
 from ..model.problem import Problem
-from ..model.tsqr import least_squares, qr_r
-from .losses import LossName, loss
-from .minimise import FitOptions, Minimum, Step, minimise, regular
+from .losses import LossName
+from .minimise import FitOptions, Step, minimise
 from .noise import EVEN, Noise, estimate_noise
 
 _ROUNDS = 10
@@ -22,16 +21,18 @@ _SAME = 1e-2  # noise that changes by less is settled: it is known to some per c
 
 
 class Fit(NamedTuple):
-    """Parameters p with covariance (P, P), in the parameters' units; whether it converged; the
-    steps; the noise; the directions (P, k) that were free, in rad and reaches.
+    """Parameters p, in their units; whether it converged; the steps; the noise; the directions
+    (P, k) that were free, in rad and reaches; the whitened Jacobian (M, k) in these and its
+    triangle, as of `Minimum`.
     """
 
     p: Array
-    covariance: Array
     converged: bool
     steps: list[Step]
     noise: Noise
     free: Array
+    jacobian: Array
+    triangle: Array | None = None
 
 
 def fit_frames(problem: Problem, name: LossName) -> Array:
@@ -70,8 +71,7 @@ def fit_parameters(problem: Problem, free: Array, p: Array, options: FitOptions)
         if len(steps) >= most:
             outcome = outcome._replace(converged=False)
             break
-    covariance = _covariance(problem, free, outcome, noise, options)
-    return Fit(p, covariance, outcome.converged, steps, noise, free)
+    return Fit(p, outcome.converged, steps, noise, free, outcome.jacobian, outcome.triangle)
 
 
 def _noise(
@@ -103,43 +103,3 @@ def _change(a: Noise, b: Noise) -> float:
             pairs = zip(before, after, strict=True)
             changes += [abs(y / x - 1.0) for x, y in pairs if x and y]
     return max(changes)
-
-
-def _covariance(
-    problem: Problem,
-    free: Array,
-    outcome: Minimum,
-    noise: Noise,
-    options: FitOptions,
-) -> Array:
-    """Covariance of p: (J^T J)^-1 of the whitened Jacobian; with a robust loss times mean(psi^2) /
-    mean(psi')^2.
-
-    Source: Huber, Robust Statistics, 1981, section 7.6.
-    """
-    B = problem.scale[:, None] * free
-    A = outcome.jacobian
-    if options.prior is not None:
-        A = np.concatenate([A, (1.0 / options.prior)[:, None] * B])
-    half = B @ _inverse(qr_r(A))
-    covariance = half @ half.T  # a product with its own transpose is symmetric to the last bit
-    if options.loss == "linear":
-        return covariance
-    psi_squared = 0.0
-    psi_slope = 0.0
-    total = problem.n_equations
-    squares = noise.squares(problem.errors(outcome.p))
-    for s, m in zip(squares, problem.sets, strict=True):
-        rho = loss(options.loss, s, m.width)
-        psi_squared += float(np.sum(rho.weight**2 * s))
-        psi_slope += float(np.sum(m.width * rho.weight + 2.0 * rho.rho_second * s))
-    # residuals after a fit are smaller than the noise, by what the parameters took up
-    psi_squared /= max(total - free.shape[1], 1)
-    return covariance * psi_squared / max(psi_slope / total, 1e-3) ** 2
-
-
-def _inverse(R: Array) -> Array:
-    """Inverse of a triangle, the pseudoinverse of a singular one."""
-    if regular(R):
-        return np.asarray(np.linalg.inv(R), float)
-    return least_squares(R, np.eye(len(R)))

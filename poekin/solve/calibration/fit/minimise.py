@@ -27,6 +27,14 @@ _ROUNDING = 1e-13  # a step or an error smaller than this, in rad and reaches, i
 _REGULAR = 1e-8
 _FIRST_DAMPING = 1e-4
 _MOST_DAMPING = 1e12
+_PLAIN = 4  # steps, after which one that was not damped follows a curved valley, too
+_AHEAD = 0.1  # of a step: where its second derivative is looked for
+_BENDING = 0.375
+# a search of more steps than this, lightly damped, ends where a step gains less than this part of
+# the square of the noise
+_SLOW = 10
+_LIGHT = 1e-6
+_CHANCE = 1e-4
 
 
 class FitOptions(NamedTuple):
@@ -51,13 +59,14 @@ class Step(NamedTuple):
 
 class Minimum(NamedTuple):
     """End of the search: p; whether it converged; the steps; the whitened Jacobian (M, k) in the
-    free directions.
+    free directions, and its triangle with the rows of the prior, None where the loss has weights.
     """
 
     p: Array
     converged: bool
     steps: list[Step]
     jacobian: Array
+    triangle: Array | None = None
 
 
 class _Objective(NamedTuple):
@@ -70,6 +79,32 @@ class _Objective(NamedTuple):
     B: Array
 
 
+class _Damping:
+    """Damping of the steps, none at first.
+
+    Source: Nielsen 1999, "Damping parameter in Marquardt's method" (IMM-REP-1999-05).
+    """
+
+    def __init__(self) -> None:
+        self.value = 0.0
+        self._growth = 2.0
+
+    def grow(self) -> None:
+        """After a step that led up: twice, then four times, eight times as much."""
+        if self.value:
+            self.value *= self._growth
+            self._growth *= 2.0
+        else:
+            self.value = _FIRST_DAMPING
+
+    def fall(self, gain: float, predicted: float) -> None:
+        """After a step that led down: to a third where its gain is the predicted one."""
+        self._growth = 2.0
+        if predicted > 0.0:
+            ratio = min(gain / predicted, 1.0)
+            self.value *= max(1.0 / 3.0, 1.0 - (2.0 * ratio - 1.0) ** 3)
+
+
 class _Linear(NamedTuple):
     """Triangle R (k, k) and c (k,) with |A z + b|^2 = |R z + c|^2 + constant, of a step z in the
     free directions.
@@ -77,6 +112,13 @@ class _Linear(NamedTuple):
 
     R: Array
     c: Array
+
+
+class _Valley(NamedTuple):
+    """Weighted Jacobian and errors (M, k + 1) without a prior, and the roots of the loss's weights."""
+
+    rows: Array
+    weights: Array
 
 
 class _Trial(NamedTuple):
@@ -103,34 +145,39 @@ def minimise(
         inverse = 1.0 / options.prior
     B = problem.scale[:, None] * free
     objective = _Objective(problem, noise, options.loss, inverse, B)
-    damping = 0.0
+    damping = _Damping()
     steps: list[Step] = []
     cost = _cost(objective, p)
     while True:
-        rows, jacobian = _rows(objective, p)
+        rows, jacobian, weights = _rows(objective, p)
         if cost == 0.0 or len(steps) >= options.max_iterations:
             return Minimum(p, cost == 0.0, steps, jacobian)
         linear = _triangular(objective, p, rows)
-        done = _is_last(linear, cost)
-        trial = _trial(objective, p, linear, damping)
+        triangle = linear.R if options.loss == "linear" else None
+        full = _solution(linear, 0.0)
+        done = _is_last(linear, cost, full)
+        valley = _Valley(rows, weights)
+        z = full
+        if damping.value or len(steps) >= _PLAIN:
+            z = _bent(objective, p, linear, damping.value, valley)
+        trial = _trial(objective, p, z)
         while not trial.cost <= cost:
             done = bool(done or _exact(problem, p))
-            if done or damping > _MOST_DAMPING:
+            if done or damping.value > _MOST_DAMPING:
                 # what is left cannot be told from rounding, or no direction leads down
-                return Minimum(p, done, steps, jacobian)
-            damping = max(_FIRST_DAMPING, 10.0 * damping)
-            trial = _trial(objective, p, linear, damping)
-        length = norm(trial.z)
-        steps.append(Step(cost, length, damping))
+                return Minimum(p, done, steps, jacobian, triangle)
+            damping.grow()
+            trial = _trial(objective, p, _bent(objective, p, linear, damping.value, valley))
+        steps.append(Step(cost, norm(trial.z), damping.value))
+        predicted = _predicted(linear, trial.z)
+        slight = predicted < _CHANCE * cost / max(len(rows) - rows.shape[1], 1)
+        done = done or (slight and len(steps) > _SLOW and 0.0 < damping.value < _LIGHT)
+        damping.fall(cost - trial.cost, predicted)
         p = trial.p
         cost = trial.cost
-        if damping > _FIRST_DAMPING:
-            damping = damping / 10.0
-        else:
-            damping = 0.0
         if done:
             # the step was too short to change the Jacobian
-            return Minimum(p, True, steps, jacobian)
+            return Minimum(p, True, steps, jacobian, triangle)
 
 
 def _triangular(objective: _Objective, p: Array, rows: Array) -> _Linear:
@@ -146,26 +193,59 @@ def _triangular(objective: _Objective, p: Array, rows: Array) -> _Linear:
     return _Linear(R[:, :-1], R[:, -1])
 
 
-def _is_last(linear: _Linear, cost: float) -> bool:
-    """Whether the full step gains next to nothing; a damped one promises little wherever it is."""
-    R, c = linear
-    z = _solution(linear, 0.0)
-    gain = c @ c - np.sum((R @ z + c) ** 2)
+def _is_last(linear: _Linear, cost: float, z: Array) -> bool:
+    """Whether the full step z gains next to nothing; a damped one promises little wherever it is."""
+    gain = _predicted(linear, z)
     return bool(gain <= _ENOUGH * cost or np.linalg.norm(z) <= _ROUNDING)
 
 
-def _trial(
-    objective: _Objective,
-    p: Array,
-    linear: _Linear,
-    damping: float,
-) -> _Trial:
-    z = _solution(linear, damping)
+def _predicted(linear: _Linear, z: Array) -> float:
+    """Gain of a step as the linear problem has it."""
+    R, c = linear
+    return float(c @ c - np.sum((R @ z + c) ** 2))
+
+
+def _trial(objective: _Objective, p: Array, z: Array) -> _Trial:
     new = p + objective.B @ z
     cost = np.inf
     if np.isfinite(z).all():
         cost = _cost(objective, new)
     return _Trial(z, new, cost)
+
+
+def _bent(
+    objective: _Objective,
+    p: Array,
+    linear: _Linear,
+    damping: float,
+    valley: _Valley,
+) -> Array:
+    """Step with half its geodesic acceleration, by which it follows a valley that is curved; without
+    where that is more than 3/8 of the step, and the curvature not the same all along it.
+
+    Source: Transtrum and Sethna 2012, "Improvements to the Levenberg-Marquardt algorithm for
+    nonlinear least-squares minimization" (arXiv:1201.5885), with their step of 0.1.
+    """
+    z = _solution(linear, damping)
+    if not np.isfinite(z).all():
+        return z
+    rows, weights = valley
+    A = rows[:, :-1]
+    here = rows[:, -1]
+    there = weights * _whitened(objective, p + objective.B @ (_AHEAD * z))
+    second = 2.0 / _AHEAD * ((there - here) / _AHEAD - A @ z)
+    scales = np.linalg.norm(linear.R, axis=0)
+    normal = linear.R.T @ linear.R + damping * np.diag(scales**2)
+    a = -0.5 * least_squares(normal, A.T @ second)
+    if norm(scales * a) <= _BENDING * norm(scales * z):
+        return z + a
+    return z
+
+
+def _whitened(objective: _Objective, p: Array) -> Array:
+    """Whitened errors (M,)."""
+    every = enumerate(objective.problem.errors(p))
+    return np.concatenate([objective.noise.whitened(k, e[..., None]).ravel() for k, e in every])
 
 
 def _solution(linear: _Linear, damping: float) -> Array:
@@ -221,10 +301,13 @@ def misfit(
     return total
 
 
-def _rows(objective: _Objective, p: Array) -> tuple[Array, Array]:
-    """Weighted Jacobian and errors (M, k + 1), and the Jacobian without the loss's weights."""
+def _rows(objective: _Objective, p: Array) -> tuple[Array, Array, Array]:
+    """Weighted Jacobian and errors (M, k + 1), the Jacobian without the loss's weights, and the
+    roots (M,) of these.
+    """
     weighted = []
     plain = []
+    roots = []
     for k, (errors, jacobian) in enumerate(objective.problem.linearised(p)):
         e = objective.noise.whitened(k, errors[..., None])[..., 0]
         width = e.shape[1]
@@ -232,10 +315,13 @@ def _rows(objective: _Objective, p: Array) -> tuple[Array, Array]:
         stacked = whitened.reshape(-1, jacobian.shape[2])
         D = blocked_product(stacked, objective.B)
         rows = np.column_stack([D, e.ravel()])
+        root = np.ones(len(rows))
         if objective.loss != "linear":  # of which each weight is 1
             squares = np.sum(e * e, axis=1)
             weight = loss(objective.loss, squares, width).weight
-            rows *= np.repeat(np.sqrt(weight), width)[:, None]
+            root = np.repeat(np.sqrt(weight), width)
+            rows *= root[:, None]
         weighted.append(rows)
         plain.append(D)
-    return np.concatenate(weighted), np.concatenate(plain)
+        roots.append(root)
+    return np.concatenate(weighted), np.concatenate(plain), np.concatenate(roots)

@@ -221,6 +221,25 @@ class Measurement:
         """
         return self._with(unknown_frames=tuple(unknown_frames))
 
+    def with_measured(self, measured: Array) -> Measurement:
+        """Copy with other measured numbers of the same shape, unchecked.
+
+        Parameters
+        ----------
+        measured : (N, 4, 4), (N, k, 3) or (N,) ndarray
+            Poses, positions or distances, m, in the frame of those that they replace.
+
+        Returns
+        -------
+        measurements : Measurement
+            Copy with these numbers.
+
+        Notes
+        -----
+        Raises: nothing, it checks nothing.
+        """
+        return self._with(**{self._measured: measured})
+
     def scaled(self, unit: float) -> Measurement:
         """Copy of the measurements with all lengths in another unit, and without covariance.
 

@@ -20,7 +20,7 @@ from .measurement import Derivatives, Frames, Measurement, UnknownFrame, seen_fr
 PointFrame = Literal["base", "unknown"]
 
 
-def _velocities(D: Array, y: Array) -> Array:
+def velocities(D: Array, y: Array) -> Array:
     """Velocities (..., 3, P) of the points y (..., 3) under the space twists D (..., 6, P): v +
     omega x y.
     """
@@ -152,7 +152,7 @@ class Points(Measurement):
     def _moved(self, T: Array, D: Array) -> Array:
         """Velocities (N, 3k, P) of the points under the space twists D (N, 6, P)."""
         y = points_at(T, self.points)
-        moved = _velocities(D[:, None], y)
+        moved = velocities(D[:, None], y)
         return moved.reshape(len(T), self.width, D.shape[2])
 
     def guesses(self, T: Array) -> list[Array]:
@@ -248,7 +248,7 @@ class Distances(Measurement):
         size = np.linalg.norm(away, axis=1, keepdims=True)
         divisor = np.maximum(size, np.finfo(float).tiny)
         u = (away / divisor)[:, None]
-        return u @ _velocities(D, y), [-u for _ in frame_values]
+        return u @ velocities(D, y), [-u for _ in frame_values]
 
     def guesses(self, T: Array) -> list[Array]:
         """The centre as given, or the one nearest to the measured distances."""

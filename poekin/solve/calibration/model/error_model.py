@@ -129,6 +129,8 @@ class ErrorModel:
         """
         moved = self.joints(p)
         errors = self.errors(p)
+        if self._plain and not (errors.offsets.any() or errors.gains.any()):
+            return moved
         arm = self.nominal.replace(
             screws=moved.screws,
             home=moved.home,

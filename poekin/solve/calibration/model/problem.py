@@ -27,7 +27,7 @@ class Linear(NamedTuple):
     jacobian: Array
 
 
-class _Points(NamedTuple):
+class MeasuredPoints(NamedTuple):
     """Measured points of all sets: rows (K,) of q, and places and errors (K, 3) in the base frame."""
 
     rows: Rows
@@ -71,6 +71,7 @@ class Problem:
             initial_frames = self._guesses()
         self.initial_frames = tuple(initial_frames)
         self._last_errors = LastResult[list[Array]]()
+        self._last_residuals = LastResult[Residuals]()
 
     def _guesses(self) -> list[Array]:
         """Initial guesses of the unknown frames: of those that sets share, by the largest set."""
@@ -116,15 +117,17 @@ class Problem:
 
     def residuals(self, p: Array) -> Residuals:
         """Residuals of all measurements."""
-        return residuals(self.sets, self.rows, self.errors(p))
+        errors = self.errors(p)
+        key = p.tobytes()
+        return self._last_residuals(key, lambda: residuals(self.sets, self.rows, errors))
 
-    def residual_vectors(self, before: Array, after: Array) -> ResidualVectors:
+    def residual_vectors(self, old: MeasuredPoints, p: Array) -> ResidualVectors:
         """Residuals of all measured points before and after a fit, as vectors in the base frame."""
-        old = self._points(before)
-        new = self._points(after)
+        new = self.points(p)
         return ResidualVectors(self.q, new.rows, new.places, old.errors, new.errors)
 
-    def _points(self, p: Array) -> _Points:
+    def points(self, p: Array) -> MeasuredPoints:
+        """Places and errors of all measured points."""
         all_rows = []
         all_places = []
         all_errors = []
@@ -133,7 +136,7 @@ class Problem:
             all_rows.append(np.repeat(rows, errors.shape[1]))
             all_places.append(places.reshape(-1, 3))
             all_errors.append(errors.reshape(-1, 3))
-        return _Points(*map(np.concatenate, (all_rows, all_places, all_errors)))
+        return MeasuredPoints(*map(np.concatenate, (all_rows, all_places, all_errors)))
 
     def _at(self, p: Array) -> Iterator[tuple[Measurement, Array, list[Array]]]:
         """Each set with the poses of its readings and its unknown frames."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ....results import plain
-from ..model.residuals import Residuals
+from ..model.residuals import Residuals, largest, median
 from ..result import CalibrationData
 
 
@@ -25,6 +25,8 @@ def document(found: CalibrationData) -> dict[str, object]:
         "frames": found.frames,
         "noise_std": found.noise_std,
         "outliers": found.outliers,
+        "workspace": _workspace(found),
+        "verdict": found.verdict,
         "warnings": found.warnings,
         "remarks": found.remarks,
     }
@@ -42,6 +44,17 @@ def parameters(found: CalibrationData) -> list[dict[str, object]]:
     columns = (found.values.tolist(), found.deviations.tolist())
     rows = zip(found.parameters, *columns, strict=True)
     return [p._asdict() | {"value": value, "deviation": s} for p, value, s in rows]
+
+
+def _workspace(found: CalibrationData) -> dict[str, object]:
+    """Standard deviations of the tool's pose over the workspace: median and worst."""
+    known = found.workspace()
+    return {
+        "median_length": median(known.length),
+        "median_angle": median(known.angle),
+        "worst_length": largest(known.length),
+        "worst_q": known.worst,
+    }
 
 
 def _statistics(r: Residuals) -> dict[str, float]:

@@ -20,8 +20,6 @@ from ..result import CalibrationData
 from . import changes, plots
 from .changes import milli
 
-CONFIGURATIONS = 1000
-"""How many random configurations the uncertainty of the pose is shown at."""
 MOST_ROWS = 60
 _HEADS = ("", "position rms (mm)", "median", "largest", "rotation rms (mrad)", "median", "largest")
 
@@ -59,6 +57,7 @@ def html(
 def _residuals(found: CalibrationData) -> Iterator[str]:
     held_out = found.cross_validation
     rows = changes.errors(found)
+    yield from (paragraph(f"Do not use it: {words}.") for words in found.verdict)
     yield from (paragraph(f"Warning: {words}.") for words in found.warnings)
     yield from (paragraph(f"{words}.") for words in found.remarks)
     if held_out is None:
@@ -183,26 +182,20 @@ def _difference(j: JointComparison) -> float:
 
 
 def _uncertainty(found: CalibrationData) -> Iterator[str]:
-    C = found.pose_covariance(found.nominal.random(0, CONFIGURATIONS))
-    angle = _deviation(rotation_part(C))
-    length = _deviation(C[:, 3:, 3:])
-    lengths, angles = ([milli(median(x)), milli(largest(x))] for x in (length, angle))
+    known = found.workspace()
+    lengths, angles = ([milli(median(x)), milli(largest(x))] for x in (known.length, known.angle))
+    worst = ", ".join(f"{x:.3g}" for x in known.worst)
     yield paragraph(
-        f"At {CONFIGURATIONS} random configurations within the limits, the tip's position has a "
-        f"standard deviation of {lengths[0]} mm in the median and {lengths[1]} mm at most, its "
-        f"rotation of {angles[0]} and {angles[1]} mrad: what noise of the measurements leaves. "
+        f"At {len(known.q)} random configurations within the limits, the tip's position has a "
+        f"standard deviation of {lengths[0]} mm in the median and {lengths[1]} mm at most, at q = "
+        f"({worst}), its rotation of {angles[0]} and {angles[1]} mrad: what noise of the "
+        "measurements leaves. "
         "What was fixed counts as known; what the model leaves out, such as bending, is not in it."
     )
     yield figure(
-        plots.uncertainty(length, angle),
+        plots.uncertainty(known.length, known.angle),
         "Standard deviations over random configurations.",
     )
-
-
-def _deviation(C: Array) -> Array:
-    """Standard deviation (N,) of vectors with covariances (N, 3, 3)."""
-    variances = np.trace(C, axis1=1, axis2=2)
-    return np.sqrt(np.maximum(variances, 0.0))
 
 
 def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterator[str]:

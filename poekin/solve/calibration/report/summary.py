@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ....errors import escape_unprintable
+from ..model.residuals import largest, median
 from ..result import CalibrationData
+from .changes import milli
 
 MOST_OUTLIERS = 12
 
@@ -27,11 +29,24 @@ def text_of(found: CalibrationData) -> str:
         f"{len(found.steps)} steps",
         str(found.identification),
         *_table(found),
+        _known(found),
         *outliers,
+        *(f"do not use it: {words}" for words in found.verdict),
         *(f"warning: {words}" for words in found.warnings),
         *found.remarks,
     ]
     return "\n".join(escape_unprintable(line, keep="\n") for line in lines)
+
+
+def _known(found: CalibrationData) -> str:
+    """Uncertainty of the tool over the workspace, in words."""
+    known = found.workspace()
+    worst = ", ".join(f"{x:.3g}" for x in known.worst)
+    return (
+        f"the tool is known to {milli(median(known.length))} mm and {milli(median(known.angle))} "
+        f"mrad over the workspace (standard deviation, median), worst "
+        f"{milli(largest(known.length))} mm at q = ({worst})"
+    )
 
 
 def _table(found: CalibrationData) -> list[str]:

@@ -42,11 +42,13 @@ _TOP = (
     "cross_validation",
     "parameter",
     "noise_std",
+    "verdict",
     "warnings",
     "remarks",
 )
 _COUNTS = ("size", "identifiable", "rank", "n_equations")
 _INDICES = ("condition", "smallest", "O1", "amplification")
+_SAID = ("verdict", "warnings", "remarks")
 _WORDS = ("unidentifiable", "unobserved")
 
 
@@ -69,8 +71,7 @@ def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
         "before": found.before,
         "after": found.after,
         "cross_validation": found.cross_validation,
-        "warnings": found.warnings or None,
-        "remarks": found.remarks or None,
+        **{name: getattr(found, name) or None for name in _SAID},
         "parameter": document.parameters(found),
         "noise_std": [_data(noise._asdict()) if noise else {} for noise in found.noise_std],
     }
@@ -105,7 +106,7 @@ def load(path: str | os.PathLike[str]) -> CalibrationData:
         loss=keys.text("loss", LOSSES),  # type: ignore[arg-type]  # one of these
         error_model=model,
         vectors=None,
-        **{name: keys.texts(name) for name in ("warnings", "remarks") if name in keys.data},
+        **{name: keys.texts(name) for name in _SAID if name in keys.data},
     )
     toml_checks.check_sets(keys, found)
     return found

@@ -13,6 +13,7 @@ from poekin.errors import InputError
 from poekin.solve.calibration import CrossValidation, Distances, Poses, Residuals, calibrate
 from poekin.solve.calibration.diagnostics import cross_validation
 from poekin.solve.calibration.fit.minimise import FitOptions
+from poekin.solve.calibration.model.configurations import configurations
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
@@ -118,3 +119,32 @@ def test_where_nothing_is_said_five_parts_are_drawn_by_the_seed_0():
     assert (found.folds, other.folds) == (5, 5)
     np.testing.assert_array_equal(found.after.length, same.after.length)
     assert not np.array_equal(found.after.length, other.after.length)
+
+
+def test_equal_and_nearly_equal_readings_are_held_out_together(monkeypatch):
+    trained = []
+    fit = SimpleNamespace(p=np.zeros(2))
+    monkeypatch.setattr(cross_validation, "fit_frames", lambda training, name: np.zeros(2))
+    monkeypatch.setattr(
+        cross_validation,
+        "fit_with_refit",
+        lambda training, *others: trained.append(training.q) or fit,
+    )
+    q = np.tile(ARM.random(0, 6), (3, 1))
+    q[6:12] += 5e-4
+    problem = Problem(ErrorModel(ARM, ("offsets",), None), q, [Poses(ARM.fk(q))])
+    found = cross_validation.cross_validate(problem, np.eye(2), FitOptions("linear"), 3, 0, None)
+    assert found.after.row.tolist() == list(range(18))
+    for rows in trained:
+        assert len(rows) == 12
+        assert configurations(rows).max() + 1 == 4
+
+
+def test_there_are_no_more_folds_than_configurations():
+    q = np.repeat(ARM.random(0, 4), 3, axis=0)
+    T = ARM.fk(q) @ pk.se3.exp(1e-4 * np.random.default_rng(1).normal(size=(12, 6)))
+    found = calibrate(ARM, q, Poses(T), parameters=["offsets"])
+    assert found.cross_validation is not None
+    assert found.cross_validation.folds == 4
+    one = calibrate(ARM, q[:3], Poses(T[:3]), parameters=["offsets"], folds=2)
+    assert one.cross_validation is None

@@ -161,8 +161,9 @@ def test_of_several_sets_the_one_is_named():
 def test_what_is_refused_is_told_with_the_base_and_tool_that_explain_it():
     s = simulated(PANDA, 40, kind="eye-in-hand", seed=3)
     words = (
-        r"no arm near the nominal one explains these Poses.* With base moved by 0.92\d m and .* rad, tool by 0.1\d* m"
-        r" and .* rad, the nominal arm is off by \d.* mm and .* mrad only: poses between a camera and a board"
+        r"no arm near the nominal one explains these Poses.* most likely: the Poses: base moved by "
+        r"0.92\d m and .* rad, tool by 0.1\d* m and .* rad \(poses between a camera and a board.*\); "
+        r"with that the nominal arm is off by \d.* mm and .* mrad \(median\), as the data stand by "
     )
     with pytest.raises(InputError, match=words):
         calibrate(PANDA, s.q, s.measurements.T, parameters=["offsets"], folds=0)  # type: ignore[attr-defined]

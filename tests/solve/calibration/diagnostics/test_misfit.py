@@ -12,7 +12,6 @@ import pytest
 
 from poekin.errors import InputError
 from poekin.solve.calibration.diagnostics import misfit
-from poekin.solve.calibration.diagnostics.explanation import Explanation, Size
 from poekin.solve.calibration.fit.losses import OUTLIER, chi_square
 from poekin.solve.calibration.model.residuals import Residuals
 
@@ -86,7 +85,8 @@ def checked(
     count = range(len(lengths))
     found = Residuals(np.array(lengths), np.zeros(len(lengths)), np.array(count), np.array(count))
     sets.residuals = lambda p: found
-    monkeypatch.setattr(misfit, "explained", lambda *given: other)
+    sets.q = None
+    monkeypatch.setattr(misfit, "most_likely", lambda *given: other)
     ended = fit()
     ended.noise = SimpleNamespace(squares=lambda errors: [np.array([s]) for s in squares])
     misfit.check(sets, ended)
@@ -113,11 +113,9 @@ def test_a_set_is_refused_that_is_missed_by_more_than_any_arm_is_off_and_than_wa
         checked(monkeypatch, noisy, [0.3, 0.3, 0.5], [0.99 * gross, 0.99 * gross, 1e9])
 
 
-def test_a_refusal_says_which_base_and_tool_explain_the_set_where_some_do(monkeypatch):
-    monkeypatch.setattr(misfit, "hint", lambda *given: "the hint")
-    near, off = (Explanation(Size(1.0, 0.5), Size(0.2, 0.1), Size(x, 0.0)) for x in (0.1, 0.3))
-    for other, words in ((near, f" With {near}, the nominal arm is off by {near.left} only: the hint."),
-                         (off, ""), (None, "")):  # fmt: skip
+def test_a_refusal_names_the_cause_that_explains_the_set_and_asks_where_none_does(monkeypatch):
+    for cause, words in (("the cause", "in the median; most likely: the cause"),
+                         (None, "of the point that it is said to be?")):  # fmt: skip
         with pytest.raises(InputError) as caught:
-            checked(monkeypatch, problem((6, None)), [0.5], [0.0], other)
-        assert str(caught.value).endswith(f"of the point that it is said to be?{words}")
+            checked(monkeypatch, problem((6, None)), [0.5], [0.0], cause)
+        assert str(caught.value).endswith(words)

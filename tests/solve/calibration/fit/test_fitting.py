@@ -13,10 +13,9 @@ from poekin.groups import se3
 from poekin.solve import calibration
 from poekin.solve.calibration import EyeInHand, Points, Poses, calibrate
 from poekin.solve.calibration.diagnostics.identification import identify_directions
-from poekin.solve.calibration.fit import fitting, losses
+from poekin.solve.calibration.fit import fitting
 from poekin.solve.calibration.fit import minimise as minimising
 from poekin.solve.calibration.fit.fitting import fit_frames
-from poekin.solve.calibration.fit.losses import LossName
 from poekin.solve.calibration.fit.minimise import (
     FitOptions,
     _exact,
@@ -204,42 +203,6 @@ def test_a_loss_that_may_have_several_minima_begins_with_one_that_has_one_and_go
     assert len(found.steps) == sum(counts)
 
 
-def test_the_covariance_of_a_robust_loss_is_huber_s():
-    q, T = noisy()
-    T[:3] = T[:3] @ se3.exp([0, 0, 0, 0.01, 0, 0])
-    problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
-    free = identify_directions(problem)[1]
-    names: tuple[LossName, ...] = ("huber", "tukey")
-    for loss in names:
-        fit = fitting.fit_parameters(problem, free, np.zeros(problem.size), FitOptions(loss))
-        J = np.concatenate([
-            fit.noise.whitened(0, jacobian).reshape(-1, problem.size) for _, jacobian in problem.linearised(fit.p)
-        ]) @ (problem.scale[:, None] * free)  # fmt: skip
-        e = fit.noise.whitened(0, problem.errors(fit.p)[0][..., None])[..., 0]
-
-        def psi(e, loss: LossName = loss):
-            return e * np.sqrt(losses.loss(loss, (e**2).sum(1), 6).weight[:, None]) ** 2
-
-        # psi(e) = w e of all six numbers of a measurement, its divergence by differences
-        h = 1e-5
-        slope = (
-            sum(
-                (psi(e + h * d)[:, i] - psi(e - h * d)[:, i]).mean() / (2 * h)
-                for i, d in enumerate(np.eye(6))
-            )
-            / 6
-        )
-        spent = np.sum(psi(e) ** 2) / (e.size - free.shape[1])
-        B = problem.scale[:, None] * free
-        expected = B @ np.linalg.inv(J.T @ J) @ B.T * spent / slope**2
-        size = np.sqrt(np.diag(expected))
-        # The jacobian are whitened by the spreads of the last search, which by then have changed by 1
-        # % at most.
-        assert fit.covariance / np.outer(size, size) == pytest.approx(
-            expected / np.outer(size, size), abs=0.03
-        )
-
-
 @pytest.mark.parametrize("size", [1e-5, 1e-3])
 def test_a_prior_draws_every_step_as_much_as_the_data_do(size):
     q, T = noisy(10)
@@ -295,7 +258,7 @@ def test_an_outlier_is_named_by_its_set_its_place_there_and_its_row_of_the_readi
     assert [tuple(o) for o in found.outliers] == [(0, 7, 7), (1, 5, 34)]
 
 
-def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_that_does_not(
+def test_damping_doubles_and_more_with_each_step_that_fails_and_falls_to_a_third_where_one_does_as_predicted(
     monkeypatch,
 ):
     q, T = noisy(10)
@@ -315,7 +278,9 @@ def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_tha
         FitOptions("linear"),
     )
     assert found.converged
-    assert [step.damping for step in found.steps[:3]] == pytest.approx([1e-3, 1e-4, 0.0])
+    # two steps fail: 1e-4, and twice that, from where the linear problem predicts every gain
+    expected = [2e-4, 2e-4 / 3, 2e-4 / 9]
+    assert [step.damping for step in found.steps[:3]] == pytest.approx(expected)
     assert found.steps[0].cost > found.steps[1].cost
     calls.clear()
     monkeypatch.setattr(
@@ -332,9 +297,8 @@ def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_tha
     )
     assert not stuck.converged
     assert (stuck.steps, stuck.p.tolist()) == ([], [0.0] * problem.size)
-    assert (
-        len(calls) == 20
-    )  # the start, the full step, and damped by 1e-4 up to the first above 1e12
+    # the start, the full step, and damped by 1e-4 times 2^(k (k + 1) / 2) up to the first above 1e12
+    assert len(calls) == 2 + 11
 
 
 def test_of_a_fit_of_frames_alone_the_arm_stays_and_without_frames_nothing_is_fitted(monkeypatch):
@@ -347,21 +311,6 @@ def test_of_a_fit_of_frames_alone_the_arm_stays_and_without_frames_nothing_is_fi
     monkeypatch.setattr(fitting, "fit_parameters", None)
     p = fit_frames(Problem(ErrorModel(PUMA, ("home",), None), q, [Poses(T)]), "linear")
     assert p.tolist() == [0.0] * 6
-
-
-def test_a_prior_counts_in_the_covariance_as_a_measurement_of_each_parameter():
-    q, T = noisy(10)
-    problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T, 1e-8 * np.eye(6))])
-    prior = np.where(np.arange(problem.size) % 3 > 0, 1e-4, np.inf)
-    fit = fitting.fit_parameters(
-        problem, np.eye(problem.size), np.zeros(problem.size), FitOptions("linear", prior)
-    )
-    J = 1e4 * problem.linearised(fit.p)[0].jacobian.reshape(-1, problem.size)
-    expected = np.linalg.inv(J.T @ J + np.diag(1 / prior**2))
-    size = np.sqrt(np.diag(expected))
-    np.testing.assert_allclose(
-        fit.covariance / np.outer(size, size), expected / np.outer(size, size), atol=1e-6
-    )
 
 
 def test_errors_of_exactly_0_take_no_step():

@@ -129,8 +129,8 @@ def test_what_is_seen_at_the_end_is_fitted_too_where_it_fits_better_by_more_than
     }
     case |= changed
     few, many = np.zeros((7, 3)), np.zeros((7, case["more"]))
-    first = Fit(np.ones(7), np.eye(7), case["converged"], STEPS[:2], Noise([], []), few)
-    second = Fit(np.full(7, 3.0), np.eye(7), case["settles"], STEPS[3:6], Noise([], []), many)
+    first = Fit(np.ones(7), case["converged"], STEPS[:2], Noise([], []), few, few)
+    second = Fit(np.full(7, 3.0), case["settles"], STEPS[3:6], Noise([], []), many, many)
     tried, asked = Minimum(np.full(7, 2.0), True, STEPS[2:3], np.eye(7)), []
     gain = case["times"] * chi_square(2, OUTLIER)
 

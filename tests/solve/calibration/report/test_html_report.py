@@ -475,9 +475,10 @@ def test_how_well_the_pose_is_known_is_said_in_mm_and_mrad(found, text):
     C = found.pose_covariance(ARM.random(0, 1000))
     sizes = [np.sqrt(np.trace(C[:, k, k], axis1=1, axis2=2)) for k in (slice(3, 6), slice(0, 3))]
     mm, mrad = (milli(np.median(x), x.max()) for x in sizes)
+    worst = ", ".join(f"{x:.3g}" for x in ARM.random(0, 1000)[np.argmax(sizes[0])])
     assert (
-        f"a standard deviation of {mm[0]} mm in the median and {mm[1]} mm at most, its rotation of {mrad[0]} and "
-        f"{mrad[1]} mrad"
+        f"a standard deviation of {mm[0]} mm in the median and {mm[1]} mm at most, at q = ({worst}), its rotation of "
+        f"{mrad[0]} and {mrad[1]} mrad"
     ) in text
 
 

@@ -1,0 +1,1 @@
+"""Causes of measurements that do not fit, each tried on the data."""

@@ -1,0 +1,134 @@
+"""Uncertainty of what does not depend on where frames were put: measurements as a calibration
+predicts them, relative motions, distances, the tool over the workspace.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ....errors import InputError, join_names
+from ....groups import se3
+from ....groups.arrays import Array
+from ....groups.vectors import norms
+from ..measurements.measurement import Measurement
+from ..measurements.points import point_at, velocities
+from ..measurements.poses import pose_error_jacobian
+from ..model.error_model import ErrorModel, PosesAndTwists
+from ..model.parameters import Parameter
+
+CONFIGURATIONS = 1000
+"""How many random configurations stand for the workspace."""
+
+
+class Estimate(NamedTuple):
+    """An error model, its parameters with those of unknown frames, their values p (P,) and
+    covariance (P, P), and these frames.
+    """
+
+    model: ErrorModel
+    parameters: Sequence[Parameter]
+    p: Array
+    covariance: Array
+    frames: Mapping[str, Array]
+
+    def at(self, q: Array) -> PosesAndTwists:
+        """Poses and twists at the readings q (N, m)."""
+        n = len(self.model.parameters)
+        return self.model.poses_and_twists(self.p[:n], q)
+
+    def propagated(self, J: Array) -> Array:
+        """J C J^T of J (..., d, k) in the first k parameters."""
+        k = J.shape[-1]
+        return J @ self.covariance[:k, :k] @ np.swapaxes(J, -1, -2)
+
+
+class Workspace(NamedTuple):
+    """Standard deviations of the tool's pose over random configurations within the limits.
+
+    Parameters
+    ----------
+    length, angle : (N,) ndarray
+        Of its position, m, and of its rotation, rad: root of the trace of each covariance.
+    q : (N, m) ndarray
+        The configurations, rad or m.
+    """
+
+    length: Array
+    angle: Array
+    q: Array
+
+    @property
+    def worst(self) -> Array:
+        """Configuration (m,) at which the position is known least."""
+        return np.asarray(self.q[np.argmax(self.length)])
+
+
+def pose_covariance(estimate: Estimate, q: Array) -> Array:
+    """Covariance (N, 6, 6) of rotation vector and position at q (N, m), in base axes."""
+    T, D = estimate.at(q)
+    return estimate.propagated(_of_pose(T, D))
+
+
+def relative_covariance(estimate: Estimate, q_a: Array, q_b: Array) -> Array:
+    """Covariance (N, 6, 6) of the pose at q_b in the tool's frame at q_a, in axes of that frame."""
+    T_a, D_a = estimate.at(q_a)
+    T_b, D_b = estimate.at(q_b)
+    back = se3.inverse(T_a)
+    return estimate.propagated(_of_pose(back @ T_b, se3.adjoint(back) @ (D_b - D_a)))
+
+
+def distance_variance(estimate: Estimate, q_a: Array, q_b: Array, point: Array) -> Array:
+    """Variance (N,) of the distance between the places of a point of the tool at q_a and q_b."""
+    T_a, D_a = estimate.at(q_a)
+    T_b, D_b = estimate.at(q_b)
+    a = point_at(T_a, point)
+    b = point_at(T_b, point)
+    size = norms(b - a)[:, None]
+    u = (b - a) / np.maximum(size, np.finfo(float).tiny)
+    J = u[:, None] @ (velocities(D_b, b) - velocities(D_a, a))
+    return estimate.propagated(J)[:, 0, 0]
+
+
+def measurement_covariance(estimate: Estimate, q: Array, s: Measurement, k: int) -> Array:
+    """Covariance (N, d, d) of the errors of a measurement like s, of set k, at q (N, m)."""
+    T, D = estimate.at(q)
+    names = [_frame_name(estimate, frame.name, frame.shared, k) for frame in s.unknown_frames]
+    frames = [estimate.frames[name] for name in names]
+    of_arm, of_frames = s.jacobian(T, frames, np.zeros((len(q), s.width)), D)
+    J = np.zeros((len(q), s.width, len(estimate.p)))
+    J[..., : of_arm.shape[2]] = of_arm
+    for name, of_frame in zip(names, of_frames, strict=True):
+        own = [i for i, p in enumerate(estimate.parameters) if p.owner == name]
+        if len(own) == 6:
+            # at T e^eta with eta != 0 the frame moves by J_r(eta) d eta
+            of_frame = of_frame @ se3.right_jacobian(estimate.p[own])
+        J[..., own] = of_frame
+    return estimate.propagated(J)
+
+
+def _frame_name(estimate: Estimate, name: str, shared: str | None, k: int) -> str:
+    """Name of an unknown frame of set k in the calibration. Raises: InputError."""
+    which = f" of measurement set {k}"
+    if shared is not None:
+        which = f" of {shared!r}"
+    for found in (name + which, name):
+        if found in estimate.frames:
+            return found
+    known = join_names(list(estimate.frames)) or "none"
+    raise InputError(f"measurement: no frame {name!r} was estimated; available: {known}")
+
+
+def workspace(estimate: Estimate, count: int, seed: int) -> Workspace:
+    """Standard deviations of the tool's pose at `count` random configurations."""
+    q = np.asarray(estimate.model.nominal.random(seed, count))
+    C = pose_covariance(estimate, q)
+    variances = np.maximum(np.diagonal(C, axis1=1, axis2=2), 0.0)
+    angle = np.sqrt(variances[:, :3].sum(axis=1))
+    return Workspace(np.sqrt(variances[:, 3:].sum(axis=1)), angle, q)
+
+
+def _of_pose(T: Array, D: Array) -> Array:
+    return pose_error_jacobian(T, np.zeros((len(T), 6)), D)

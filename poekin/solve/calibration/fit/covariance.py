@@ -1,0 +1,121 @@
+"""Covariance of a fit's parameters: by the noise alone, or by clusters of errors that depend on each
+other.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....groups.arrays import Array
+from ..model.configurations import configurations
+from ..model.problem import Problem
+from ..model.tsqr import least_squares, qr_r
+from .fitting import Fit
+from .losses import loss
+from .minimise import FitOptions, regular
+
+_OWN = 3
+"""Numbers of a configuration that are taken for independent: those of one point."""
+_LEAST = 1e-6
+"""Part of an error below which a fit left nothing of it: only its configuration knows of it."""
+
+
+def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
+    """Covariance (P, P) of p, (J^T J)^-1 of the whitened Jacobian J; with a robust loss times
+    mean(psi^2) / mean(psi')^2.
+
+    Where a configuration carries more than three numbers, and their covariance is not given, their
+    errors may depend on each other, as those of three reflectors on an arm that bends: (J^T J)^-1
+    M (J^T J)^-1 then, with `_meat`'s M. Source: Huber, Robust Statistics, 1981, section 7.6; Liang
+    and Zeger 1986 (Biometrika 73) for clusters.
+    """
+    B = problem.scale[:, None] * fit.free
+    A = fit.jacobian
+    if options.prior is not None:
+        A = np.concatenate([A, (1.0 / options.prior)[:, None] * B])
+    R = qr_r(A) if fit.triangle is None else fit.triangle
+    inverse = _inverse(R)
+    half = B @ inverse
+    clusters = _clusters(problem)
+    if clusters is not None:
+        half = half @ _root(_meat(A @ inverse, _scores(problem, fit, options), clusters))
+    covariance = half @ half.T  # a product with its own transpose is symmetric to the last bit
+    if options.loss == "linear":
+        return covariance
+    psi_squared = 0.0
+    psi_slope = 0.0
+    total = problem.n_equations
+    squares = fit.noise.squares(problem.errors(fit.p))
+    for s, m in zip(squares, problem.sets, strict=True):
+        rho = loss(options.loss, s, m.width)
+        psi_squared += float(np.sum(rho.weight**2 * s))
+        psi_slope += float(np.sum(m.width * rho.weight + 2.0 * rho.rho_second * s))
+    # residuals after a fit are smaller than the noise, by what the parameters took up
+    psi_squared /= max(total - fit.free.shape[1], 1)
+    if clusters is not None:
+        psi_squared = 1.0  # its part is in the scores
+    return covariance * psi_squared / max(psi_slope / total, 1e-3) ** 2
+
+
+def _clusters(problem: Problem) -> NDArray[np.intp] | None:
+    """Configuration of each number that was measured (M,); None where no errors depend on each
+    other, or all their covariances are given: these are believed.
+    """
+    if all(s.covariance is not None for s in problem.sets):
+        return None
+    label = configurations(problem.q)
+    pairs = zip(problem.sets, problem.rows, strict=True)
+    clusters = np.concatenate([np.repeat(label[rows], s.width) for s, rows in pairs])
+    if np.bincount(clusters).max() <= _OWN:
+        return None
+    return clusters
+
+
+def _scores(problem: Problem, fit: Fit, options: FitOptions) -> Array:
+    """Whitened errors (M,), with the weights of the loss."""
+    found = []
+    for k, errors in enumerate(problem.errors(fit.p)):
+        e = fit.noise.whitened(k, errors[..., None])[..., 0]
+        squares = np.sum(e * e, axis=1)
+        weight = loss(options.loss, squares, e.shape[1]).weight
+        found.append((e * weight[:, None]).ravel())
+    return np.concatenate(found)
+
+
+def _meat(Q: Array, scores: Array, clusters: NDArray[np.intp]) -> Array:
+    """M = sum over clusters g of Q_g^T a_g a_g^T Q_g, with a_g = (I - Q_g Q_g^T)^-1 e_g: the errors
+    e_g (M,) as a fit without the cluster would leave them.
+
+    Q (M + k, P): orthonormal columns, behind the measured rows those of a prior, which count as
+    they are. Source: Bell and McCaffrey 2002 (Survey Methodology 28), the jackknife CR3.
+    """
+    of_prior = Q[len(clusters) :]
+    total = of_prior.T @ of_prior
+    order = np.argsort(clusters, kind="stable")
+    sizes = np.bincount(clusters)
+    begins = np.cumsum(sizes) - sizes
+    for size in np.unique(sizes[sizes > 0]).tolist():
+        rows = order[begins[sizes == size][:, None] + np.arange(size)]
+        Q_g = Q[rows]
+        back = np.swapaxes(Q_g, 1, 2)
+        values, V = np.linalg.eigh(np.eye(size) - Q_g @ back)
+        e = (np.swapaxes(V, 1, 2) @ scores[rows][..., None])[..., 0]
+        # of what only one configuration tells, the noise is what it is for the others
+        a = np.where(values > _LEAST, e / np.maximum(values, _LEAST), 1.0)
+        u = (back @ (V @ a[..., None]))[..., 0]
+        total += u.T @ u
+    return total
+
+
+def _root(M: Array) -> Array:
+    """A root R of a positive semidefinite matrix, R R^T = M."""
+    values, V = np.linalg.eigh(M)
+    return V * np.sqrt(np.maximum(values, 0.0))
+
+
+def _inverse(R: Array) -> Array:
+    """Inverse of a triangle, the pseudoinverse of a singular one."""
+    if regular(R):
+        return np.asarray(np.linalg.inv(R), float)
+    return least_squares(R, np.eye(len(R)))

@@ -1,0 +1,100 @@
+"""Intervals are honest: 95 % ones hold 92 to 98 % of what they are of."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from poekin.solve.calibration import Calibration, Measurement, calibrate
+from tests.solve.calibration.fit.sagging import ARM, POINTS, SAG, measured, sagged, true_arm
+
+TRUTHS = 30
+EACH = 10
+ROWS = 50
+KNOWN = 2500
+"""Configurations from which an arm is known: a fit's errors are smaller there by the root of 60."""
+TWO_SIGMA = 1.96
+KINDS = [("reflectors", SAG), ("reflectors", 0.0), ("poses", 0.0), ("poses", SAG), ("point", 0.0), ("point", SAG),
+         ("distance", 0.0), ("camera", 0.0), ("camera", SAG)]  # fmt: skip
+
+
+def predicted(found: Calibration, q: np.ndarray, s: Measurement) -> np.ndarray:
+    """What the calibrated arm predicts of s at q (N, d), from any origin."""
+    return s.errors(found.chain.fk(q), list(found.frames.values()))
+
+
+@pytest.mark.parametrize(("kind", "sag"), KINDS)
+def test_intervals_of_predicted_measurements_hold_their_share(kind, sag):
+    """The arm that the best fit of all configurations is, sag or none, is what a fit looks for."""
+    inside = []
+    for truth in range(TRUTHS):
+        rng = np.random.default_rng([truth, 7])
+        true = true_arm(rng)
+
+        def fitted(count: int, rng: np.random.Generator = rng, true=true) -> Calibration:
+            q = ARM.random(rng, count)
+            return calibrate(ARM, q, measured(kind, sagged(true, q, sag), rng), folds=0)
+
+        best = fitted(KNOWN)
+        for _ in range(EACH):
+            found = fitted(ROWS)
+            q = ARM.random(rng, 2)
+            s = measured(kind, ARM.fk(q), rng)
+            off = predicted(found, q, s) - predicted(best, q, s)
+            C = found.measurement_covariance(q, s)
+            sizes = np.sqrt(np.diagonal(C, axis1=1, axis2=2))
+            inside.append(np.mean(np.abs(off) < TWO_SIGMA * sizes))
+    # 300 calibrations of 50 configurations: the share is known to a per cent
+    assert 0.92 <= np.mean(inside) <= 0.98
+
+
+@pytest.mark.parametrize("sag", [0.0, SAG])
+def test_intervals_of_distances_and_relative_motions_hold_their_share(sag):
+    distances = []
+    motions = []
+    for truth in range(TRUTHS):
+        rng = np.random.default_rng([truth, 8])
+        true = true_arm(rng)
+
+        def fitted(count: int, rng: np.random.Generator = rng, true=true) -> Calibration:
+            q = ARM.random(rng, count)
+            return calibrate(ARM, q, measured("poses", sagged(true, q, sag), rng), folds=0)
+
+        best = fitted(KNOWN)
+        for _ in range(EACH):
+            found = fitted(ROWS)
+            a, b = ARM.random(rng, 2)
+            place = POINTS[0]
+            off = _distance(found, a, b, place) - _distance(best, a, b, place)
+            distances.append(abs(off) < TWO_SIGMA * found.distance_deviation(a, b, place))
+            motion = _motion(found, a, b)[:3, 3] - _motion(best, a, b)[:3, 3]
+            sizes = np.sqrt(np.diag(found.relative_covariance(a, b))[3:])
+            motions.append(np.mean(np.abs(motion) < TWO_SIGMA * sizes))
+    assert 0.92 <= np.mean(distances) <= 0.98
+    assert 0.92 <= np.mean(motions) <= 0.98
+
+
+def _motion(found: Calibration, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.linalg.inv(found.chain.fk(a)) @ found.chain.fk(b)
+
+
+def _distance(found: Calibration, a: np.ndarray, b: np.ndarray, point: np.ndarray) -> float:
+    places = [T[:3, :3] @ point + T[:3, 3] for T in found.chain.fk(np.array([a, b]))]
+    return float(np.linalg.norm(places[0] - places[1]))
+
+
+def test_what_is_kept_aside_of_repeated_readings_is_as_far_off_as_fresh_ones():
+    ratios = []
+    for truth in range(TRUTHS):
+        rng = np.random.default_rng([truth, 9])
+        true = true_arm(rng)
+        q = np.repeat(ARM.random(rng, ROWS), 4, axis=0)
+        q += 1e-4 * rng.normal(size=q.shape)
+        found = calibrate(ARM, q, measured("point", sagged(true, q, SAG), rng), folds=10)
+        fresh = ARM.random(rng, 500)
+        s = measured("point", sagged(true, fresh, SAG), rng)
+        off = np.linalg.norm(s.errors(found.chain.fk(fresh), []), axis=1)
+        assert found.cross_validation is not None
+        ratios.append(found.cross_validation.after.rms_length / np.sqrt(np.mean(off**2)))
+    # nine tenths of the readings foretell a little worse than all
+    assert 0.9 <= np.mean(ratios) <= 1.15

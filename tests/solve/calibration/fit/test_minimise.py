@@ -1,0 +1,65 @@
+"""Damping and bending of the steps of a search."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from poekin.solve.calibration.fit import minimise as minimising
+from poekin.solve.calibration.fit.minimise import _bent, _Damping, _Linear, _Valley
+
+
+def test_damping_doubles_and_redoubles_and_falls_to_a_third_where_the_gain_is_as_predicted():
+    damping = _Damping()
+    assert damping.value == 0.0
+    values = []
+    for _ in range(4):
+        damping.grow()
+        values.append(damping.value)
+    np.testing.assert_allclose(values, [1e-4, 2e-4, 8e-4, 64e-4])
+    damping.fall(1.0, 1.0)
+    assert damping.value == pytest.approx(64e-4 / 3)
+    damping.fall(0.5, 1.0)  # half of what was predicted: as it is
+    assert damping.value == pytest.approx(64e-4 / 3)
+    damping.fall(0.0, 1.0)
+    assert damping.value == pytest.approx(2 * 64e-4 / 3)
+    damping.fall(1.0, 0.0)
+    damping.grow()
+    assert damping.value == pytest.approx(4 * 64e-4 / 3)
+
+
+def bent(second: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
+    """A step, plain and bent, of errors r = A z + second |z|^2 / 2 in one of them, from z = 0."""
+    rng = np.random.default_rng(0)
+    A = rng.normal(size=(5, 2))
+    b = rng.normal(size=5)
+
+    def errors(p: np.ndarray) -> list[np.ndarray]:
+        return [(A @ p + b + np.array([second, 0, 0, 0, 0]) * (p @ p) / 2)[:, None]]
+
+    problem: Any = type("Problem", (), {"errors": staticmethod(errors)})
+    noise: Any = type("Noise", (), {"whitened": staticmethod(lambda k, e: e)})
+    objective = minimising._Objective(problem, noise, "linear", np.zeros(2), np.eye(2))
+    Q, R = np.linalg.qr(A)
+    linear = _Linear(R, Q.T @ b)
+    valley = _Valley(np.column_stack([A, b]), np.ones(5))
+    plain = minimising._solution(linear, damping)
+    found = _bent(objective, np.zeros(2), linear, damping, valley)
+    D = np.diag(np.sum(R**2, axis=0))
+    r = np.array([second, 0, 0, 0, 0]) * (plain @ plain)
+    expected = plain - 0.5 * np.linalg.solve(R.T @ R + damping * D, A.T @ r)
+    return found - plain, expected - plain
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.1, 10.0])
+def test_a_step_bends_by_half_the_acceleration_of_the_errors_along_it(damping):
+    found, expected = bent(0.1, damping)
+    # second differences of a square are exact but for rounding, 1e-16 / 0.1^2
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13)
+    assert np.linalg.norm(found) > 0
+
+
+def test_a_step_stays_straight_where_it_would_bend_by_more_than_three_eighths():
+    assert bent(100.0, 0.0)[0].tolist() == [0.0, 0.0]
