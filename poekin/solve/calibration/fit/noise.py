@@ -68,6 +68,14 @@ class Noise:
             return W @ errors
         return W * errors
 
+    def unwhitened(self, k: int, errors: Array) -> Array:
+        """L times whitened errors (N, d) of set k."""
+        W = self._whiten[k]
+        if W.ndim == 3:
+            solved: Array = np.linalg.solve(W, errors[..., None])
+            return solved[..., 0]
+        return errors / W[:, 0]
+
     def squares(self, errors: Sequence[Array]) -> list[Array]:
         """s = e^T C^-1 e of each measurement, of the errors (N, d) of each set."""
         whitened = (self.whitened(k, e[..., None]) for k, e in enumerate(errors))

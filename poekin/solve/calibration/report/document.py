@@ -25,6 +25,7 @@ def document(found: CalibrationData) -> dict[str, object]:
         "frames": found.frames,
         "noise_std": found.noise_std,
         "outliers": found.outliers,
+        "terms": found.terms,
         "warnings": found.warnings,
         "remarks": found.remarks,
     }

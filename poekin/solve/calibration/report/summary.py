@@ -27,6 +27,7 @@ def text_of(found: CalibrationData) -> str:
         f"{len(found.steps)} steps",
         str(found.identification),
         *_table(found),
+        *map(str, found.terms),
         *outliers,
         *(f"warning: {words}" for words in found.warnings),
         *found.remarks,
