@@ -37,6 +37,7 @@ from .model.residuals import Residuals
 from .result import Outlier
 from .selection import choose_terms
 from .selection.choose_terms import CANDIDATES
+from .selection.held_out import Folds
 from .selection.term_gain import TermGain
 from .terms.conditions import parse_conditions
 from .terms.named import TermName
@@ -179,7 +180,8 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     solved = solve(problem)
     terms: tuple[TermGain, ...] = ()
     if folds and (names := CANDIDATES if auto else model.judged):
-        tried = choose_terms.candidates(problem, solved.fit, names, given, loss, folds, seed)
+        drawn = Folds(folds, seed)
+        tried = choose_terms.candidates(problem, solved.fit, names, given, loss, drawn)
         chosen = choose_terms.choose(tried) if auto else [name_of(kind) for kind in names]
         terms = choose_terms.gains(tried, chosen)
         if auto and chosen:

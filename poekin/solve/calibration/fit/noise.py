@@ -5,7 +5,7 @@ estimated from the residuals.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -72,8 +72,8 @@ class Noise:
         """L times whitened errors (N, d) of set k."""
         W = self._whiten[k]
         if W.ndim == 3:
-            solved: Array = np.linalg.solve(W, errors[..., None])
-            return solved[..., 0]
+            solved: Any = np.linalg.solve(W, errors[..., None])
+            return np.asarray(solved[..., 0], float)
         return errors / W[:, 0]
 
     def squares(self, errors: Sequence[Array]) -> list[Array]:

@@ -16,34 +16,32 @@ from ..model.problem import Problem
 from ..terms.conditions import Conditions
 from ..terms.named import BUILDERS
 from ..terms.term import Term, name_of
-from .held_out import HeldOut, LinearFit, joined
+from .held_out import Folds, HeldOut, LinearFit
 from .term_gain import TermGain
 
 CANDIDATES = ("compliance", "gains", *(name for name in BUILDERS if name != "compliance"))
 """Terms that `parameters="auto"` tries."""
 
 
+_GEOMETRY = ""
+
+
 class Candidates(NamedTuple):
-    """Linearisation with all terms, and the basis of each of them in it, that of the rest first."""
+    """Linearisation with all terms, and their names."""
 
     fit: LinearFit
-    rest: Array
-    directions: dict[str, Array]
+    names: tuple[str, ...]
 
-    def basis(self, names: Sequence[str]) -> Array:
-        """Orthonormal basis (M, k) of the rest and of these terms."""
-        found = self.rest
+    def columns(self, names: Sequence[str]) -> Array:
+        """Orthonormal columns of the geometry and of these terms."""
+        found = self.fit.with_group(self.fit.nothing, _GEOMETRY)
         for name in names:
-            found = self.added(found, name)
+            found = self.fit.with_group(found, name)
         return found
-
-    def added(self, Q: Array, name: str) -> Array:
-        """Basis Q and that of one more term."""
-        return joined([Q, self.fit.basis(self.directions[name], Q)], len(Q))
 
     def held_out(self, names: Sequence[str]) -> HeldOut | None:
         """Errors on held-out readings with these terms."""
-        return self.fit.held_out(self.basis(names))
+        return self.fit.held_out(self.columns(names))
 
 
 def candidates(
@@ -52,8 +50,7 @@ def candidates(
     kinds: Sequence[str | Term],
     conditions: Conditions,
     loss: LossName,
-    folds: int,
-    seed: int,
+    folds: Folds,
 ) -> Candidates:
     """The linearisation at a fit, with these kinds of terms beside what was fitted."""
     own = problem.model
@@ -64,17 +61,15 @@ def candidates(
     old = [place[parameter] for parameter in problem.parameters]
     p = np.zeros(wide.size)
     p[old] = fit.p
-    free = np.zeros((wide.size, fit.free.shape[1]))
-    free[old] = fit.free
-    directions = {}
-    of_terms = np.zeros(wide.size, bool)
+    geometry = np.zeros((wide.size, fit.free.shape[1]))
+    geometry[old] = fit.free
+    directions = {_GEOMETRY: geometry}
     for kind in kinds:
         mine = [place[parameter] for parameter in model.parameters_of(kind)]
-        of_terms[mine] = True
+        geometry[mine] = 0.0
         directions[name_of(kind)] = np.eye(wide.size)[:, mine]
-    linear = LinearFit(wide, p, fit.noise, loss, folds, seed)
-    rest = linear.basis(free * ~of_terms[:, None], np.empty((len(linear.b), 0)))
-    return Candidates(linear, rest, directions)
+    linear = LinearFit(wide, fit._replace(p=p), loss, folds, directions)
+    return Candidates(linear, tuple(map(name_of, kinds)))
 
 
 def choose(found: Candidates) -> list[str]:
@@ -83,17 +78,17 @@ def choose(found: Candidates) -> list[str]:
 
     Source: Breiman, Friedman, Olshen and Stone 1984, section 3.4.3, the one-standard-error rule.
     """
-    first = found.fit.held_out(found.rest)
+    Q = found.columns([])
+    first = found.fit.held_out(Q)
     if first is None:
         return []
     chosen: list[str] = []
     path = [first]
-    Q = found.rest
-    left = list(found.directions)
+    left = list(found.names)
     while left:
         tried = {}
         for name in left:
-            wider = found.added(Q, name)
+            wider = found.fit.with_group(Q, name)
             errors = found.fit.held_out(wider)
             if errors is not None and wider.shape[1] > Q.shape[1]:
                 tried[name] = (errors, wider)
@@ -117,11 +112,11 @@ def gains(found: Candidates, chosen: Sequence[str]) -> tuple[TermGain, ...]:
     """The gain of each term, beside those that are chosen."""
     base = found.held_out(chosen)
     rows = []
-    for name in found.directions:
+    for name in found.names:
         others = [other for other in chosen if other != name]
         before = found.held_out(others)
-        Q = found.basis(others)
-        count = found.added(Q, name).shape[1] - Q.shape[1]
+        Q = found.columns(others)
+        count = found.fit.with_group(Q, name).shape[1] - Q.shape[1]
         after = base
         if name not in chosen:
             after = found.held_out([*others, name])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from ....groups.arrays import Array
 from ....groups.vectors import norms
+from ..fit.fitting import Fit
 from ..fit.losses import LossName, loss
-from ..fit.noise import Noise
 from ..model.problem import Problem
-from ..model.tsqr import blocked_product
+from ..model.tsqr import blocked_product, qr_r
 
+_RANK = 1e-8  # of the largest singular value: directions below are rounding
 _INDEPENDENT = 1e-6  # of a column's length: what of it is left beside the others is rounding below
 
 
@@ -40,67 +41,98 @@ class HeldOut(NamedTuple):
         return float(np.sqrt(np.mean(self.lengths)))
 
 
-class LinearFit:
-    """Whitened, weighted errors b (M,) and Jacobian A (M, P) at p, with the folds of their rows.
+class Folds(NamedTuple):
+    """Number of folds, and the seed by which configurations are drawn into them."""
 
-    Any set of columns is fitted to all folds but one, and predicts this one: r_f = (I - Q_f
-    Q_f^T)^-1 r^_f of the residuals r^ of the fit to all, with Q the columns' orthonormal basis.
-    Source: the hat matrix' block form of leave-one-out, Cook and Weisberg 1982, section 2.2.
+    count: int
+    seed: int
+
+    def of(self, label: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Fold of each configuration; label (N,), the configuration of each reading."""
+        order = np.random.default_rng(self.seed).permutation(label.max() + 1)
+        found = np.empty(len(order), np.intp)
+        for k, drawn in enumerate(np.array_split(order, self.count)):
+            found[drawn] = k
+        return found
+
+
+class LinearFit:
+    """Whitened, weighted errors b (M,) and Jacobian at p, by orthonormal columns Q (M, K) of groups of
+    directions, with the folds of their rows.
+
+    A subspace of them, Q W with orthonormal W (K, k), is fitted to all folds but one and predicts
+    this one, f: z = (I - W^T Q_f^T Q_f W)^-1 W^T (Q^T b - Q_f^T b_f) leaves b_f - Q_f W z. So each
+    set of terms costs products of K numbers, not of M.
     """
 
     def __init__(
-        self, problem: Problem, p: Array, noise: Noise, name: LossName, folds: int, seed: int
+        self,
+        problem: Problem,
+        fit: Fit,
+        name: LossName,
+        folds: Folds,
+        directions: Mapping[str, Array],
     ) -> None:
-        label = _configurations(problem.q)
-        order = np.random.default_rng(seed).permutation(label.max() + 1)
-        fold_of = np.empty(len(order), np.intp)
-        for k, drawn in enumerate(np.array_split(order, folds)):
-            fold_of[drawn] = k
-        self._groups: list[NDArray[np.intp]] = [label[rows] for rows in problem.rows]
         self._problem = problem
-        self._noise = noise
-        blocks = []
-        errors = []
-        weights = []
-        for k, (e, J) in enumerate(problem.linearised(p)):
-            b = noise.whitened(k, e[..., None])[..., 0]
-            A = noise.whitened(k, J) * problem.scale
-            weight = loss(name, np.sum(b * b, axis=1), b.shape[1]).weight
-            roots = np.repeat(np.sqrt(weight), b.shape[1])
-            weights.append(weight)
-            blocks.append(A.reshape(-1, problem.size) * roots[:, None])
-            errors.append(b.ravel() * roots)
-        self.A = np.concatenate(blocks)
-        self.b = np.concatenate(errors)
-        self._weights = weights
+        self._noise = fit.noise
+        label = _configurations(problem.q)
+        self._groups = [label[rows] for rows in problem.rows]
+        rows = self._weighted(fit.p, name)
+        every = np.concatenate(list(directions.values()), axis=1)
+        columns = blocked_product(rows[:, :-1], every)
+        sizes = np.linalg.norm(columns, axis=0)
+        columns /= np.where(sizes > 0.0, sizes, 1.0)
+        _, s, Vt = np.linalg.svd(qr_r(columns), full_matrices=False)
+        kept = s > _RANK * s[:1]
+        self._Q = blocked_product(columns, Vt[kept].T / s[kept])
+        ends = np.cumsum([D.shape[1] for D in directions.values()])
+        parts = np.split(s[kept, None] * Vt[kept], ends[:-1], axis=1)
+        self._columns = dict(zip(directions, parts, strict=True))
+        self._b = rows[:, -1]
         pairs = zip(self._groups, problem.sets, strict=True)
-        self._fold = np.concatenate([np.repeat(fold_of[g], s.width) for g, s in pairs])
-        self._folds = folds
+        numbers = [np.repeat(folds.of(label)[group], s.width) for group, s in pairs]
+        fold = np.concatenate(numbers)
+        self._folds = [np.flatnonzero(fold == k) for k in range(folds.count)]
 
-    def basis(self, directions: Array, beside: Array) -> Array:
-        """Orthonormal basis (M, k) of the columns A D, D (P, j), as far as they are not in the span of
-        the basis `beside` (M, i).
-        """
-        columns = blocked_product(self.A, directions)
-        lengths = np.linalg.norm(columns, axis=0)
-        columns = columns[:, lengths > 0] / lengths[lengths > 0]
-        for _ in range(2):  # twice is enough, Parlett
-            columns = columns - beside @ (beside.T @ columns)
+    def _weighted(self, p: Array, name: LossName) -> Array:
+        """Jacobian and errors (M, P + 1), each row times the root of its weight."""
+        self._weights: list[Array] = []
+        found = []
+        for k, (errors, jacobian) in enumerate(self._problem.linearised(p)):
+            e = self._noise.whitened(k, errors[..., None])
+            J = self._noise.whitened(k, jacobian) * self._problem.scale
+            weight = loss(name, np.sum(e * e, axis=(1, 2)), errors.shape[1]).weight
+            self._weights.append(weight)
+            rows = np.concatenate([J, e], axis=2) * np.sqrt(weight)[:, None, None]
+            found.append(rows.reshape(-1, rows.shape[2]))
+        return np.concatenate(found)
+
+    @property
+    def nothing(self) -> Array:
+        """W of no columns."""
+        return np.empty((self._Q.shape[1], 0))
+
+    def with_group(self, W: Array, name: str) -> Array:
+        """W and more columns: those of a group, as far as they are not in the span of W."""
+        columns = self._columns[name]
+        sizes = np.linalg.norm(columns, axis=0)
+        columns = columns[:, sizes > 0.0] / sizes[sizes > 0.0]
+        for _ in range(2):  # Gram-Schmidt is exact the second time
+            columns = columns - W @ (W.T @ columns)
         U, s, _ = np.linalg.svd(columns, full_matrices=False)
-        return U[:, s > _INDEPENDENT]
+        return np.concatenate([W, U[:, s > _INDEPENDENT]], axis=1)
 
-    def held_out(self, Q: Array) -> HeldOut | None:
-        """Errors with the orthonormal columns Q (M, k) fitted; None where a fold has to itself what
-        some of them are known by.
-        """
-        r = self.b - Q @ (Q.T @ self.b)
-        for k in range(self._folds):
-            rows = np.flatnonzero(self._fold == k)
-            own = Q[rows]
-            left = np.eye(Q.shape[1]) - own.T @ own
+    def held_out(self, W: Array) -> HeldOut | None:
+        """Errors with these columns fitted; None where a fold has to itself what some are known by."""
+        r = self._b.copy()
+        total = self._Q.T @ r
+        for rows in self._folds:
+            own = self._Q[rows]
+            QW = blocked_product(own, W)
+            left = np.eye(W.shape[1]) - QW.T @ QW
             if np.linalg.eigvalsh(left).min(initial=1.0) < _INDEPENDENT:
                 return None
-            r[rows] += own @ np.linalg.solve(left, own.T @ r[rows])
+            r[rows] -= QW @ np.linalg.solve(left, W.T @ (total - own.T @ r[rows]))
         return self._by_configuration(r)
 
     def _by_configuration(self, r: Array) -> HeldOut:
@@ -135,8 +167,3 @@ def _configurations(q: Array) -> NDArray[np.intp]:
     rank = np.empty(len(first), np.intp)
     rank[np.argsort(first)] = np.arange(len(first))
     return rank[label.ravel()]
-
-
-def joined(parts: Sequence[Array], rows: int) -> Array:
-    """Bases (M, k) side by side."""
-    return np.concatenate([np.empty((rows, 0)), *parts], axis=1)

@@ -12,7 +12,7 @@ from poekin.solve.calibration.fit.minimise import FitOptions
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 from poekin.solve.calibration.selection.choose_terms import candidates, choose, gains
-from poekin.solve.calibration.selection.held_out import LinearFit
+from poekin.solve.calibration.selection.held_out import Folds, LinearFit
 from poekin.solve.calibration.terms.conditions import parse_conditions
 from tests.solve.calibration.terms.sagging import arm, case
 
@@ -29,7 +29,7 @@ def fitted(sets, kinds=("screws", "home"), q=MADE.q):
 
 def test_held_out_errors_are_those_of_refits():
     problem, fit = fitted([MADE.points])
-    found = candidates(problem, fit, ("compliance",), CONDITIONS, "linear", 5, 3)
+    found = candidates(problem, fit, ("compliance",), CONDITIONS, "linear", Folds(5, 3))
     for chosen in ([], ["compliance"]):
         linear = found.held_out(chosen)
         kinds = ("screws", "home", *chosen)
@@ -38,31 +38,42 @@ def test_held_out_errors_are_those_of_refits():
         assert linear.rms_length == pytest.approx(again.cross_validation.after.rms_length, rel=1e-2)
 
 
+def linear(problem, fit, **groups):
+    groups = groups or {"all": fit.free}
+    return LinearFit(problem, fit, "linear", Folds(5, 0), groups)
+
+
 def test_repeated_readings_are_held_out_together():
     q = np.repeat(MADE.q[:30], 2, axis=0)
     p = np.repeat(MADE.points.p[:30], 2, axis=0)
-    problem, fit = fitted([Points(p, MADE.points.points)], q=q)
-    linear = LinearFit(problem, fit.p, fit.noise, "linear", 5, 0)
-    np.testing.assert_array_equal(linear._fold.reshape(30, 6).std(axis=1), 0)
-    assert linear.held_out(linear.basis(fit.free, np.empty((180, 0)))).lengths.shape == (30,)
+    found = linear(*fitted([Points(p, MADE.points.points)], q=q))
+    for rows in found._folds:
+        assert set(np.bincount(rows // 6, minlength=30).tolist()) == {0, 6}
+    columns = found.with_group(found.nothing, "all")
+    assert found.held_out(columns).lengths.shape == (30,)
 
 
 def test_what_one_fold_alone_knows_cannot_be_held_out():
     problem, fit = fitted([MADE.points])
-    linear = LinearFit(problem, fit.p, fit.noise, "linear", 5, 0)
-    alone = np.eye(180)[:, :1]
-    assert linear.held_out(alone) is None
-    assert linear.held_out(np.empty((180, 0))) is not None
+    q = np.array(MADE.q)
+    q[1:, 0] = q[0, 0]  # only one row says how the first joint's reading counts
+    problem = Problem(ErrorModel(CHAIN, ("gains",), None), q - q[0], problem.sets)
+    found = linear(problem, fit._replace(p=np.zeros(problem.size)), all=np.eye(problem.size))
+    assert found.held_out(found.nothing) is not None
+    q[0, 0] += 1.0
+    problem = Problem(problem.model, q - q[1], problem.sets)
+    found = linear(problem, fit._replace(p=np.zeros(problem.size)), all=np.eye(problem.size))
+    assert found.held_out(found.with_group(found.nothing, "all")) is None
 
 
-def test_directions_beside_a_basis_are_orthonormal_to_it_and_twice_the_same_is_once():
+def test_columns_are_orthonormal_and_twice_the_same_is_once():
     problem, fit = fitted([MADE.points])
-    linear = LinearFit(problem, fit.p, fit.noise, "linear", 5, 0)
-    Q = linear.basis(fit.free[:, :8], np.empty((180, 0)))
-    more = linear.basis(fit.free, Q)
-    both = np.concatenate([Q, more], axis=1)
-    np.testing.assert_allclose(both.T @ both, np.eye(fit.free.shape[1]), atol=1e-12)
-    assert linear.basis(fit.free[:, :5], Q).shape == (180, 0)
+    found = linear(problem, fit, some=fit.free[:, :8], all=fit.free)
+    some = found.with_group(found.nothing, "some")
+    both = found.with_group(some, "all")
+    assert both.shape[1] == fit.free.shape[1]
+    np.testing.assert_allclose(both.T @ both, np.eye(both.shape[1]), atol=1e-12)
+    np.testing.assert_array_equal(found.with_group(both, "some"), both)
 
 
 def test_a_length_is_the_error_in_metres_whatever_the_noise():
@@ -71,17 +82,17 @@ def test_a_length_is_the_error_in_metres_whatever_the_noise():
     C = np.diag([1e-8] * 3 + [1e-6, 4e-6, 2e-6])
     C[3, 4] = C[4, 3] = 1e-6
     problem, fit = fitted([Poses(poses, C)], ("home",))
-    linear = LinearFit(problem, fit.p, fit.noise, "linear", 5, 0)
+    made = linear(problem, fit)
+    found = made.held_out(made.nothing)
     errors = problem.errors(fit.p)[0]
-    found = linear.held_out(np.empty((360, 0)))
-    np.testing.assert_allclose(np.sort(found.lengths), np.sort((errors[:, 3:] ** 2).sum(axis=1)))
+    np.testing.assert_allclose(found.lengths, (errors[:, 3:] ** 2).sum(axis=1))
     whitened = np.einsum("ni,ij,nj->n", errors, np.linalg.inv(C), errors) / 6
-    np.testing.assert_allclose(np.sort(found.whitened), np.sort(whitened))
+    np.testing.assert_allclose(found.whitened, whitened)
 
 
 def test_the_rule_takes_the_smallest_set_within_one_standard_error():
     problem, fit = fitted([MADE.points])
-    found = candidates(problem, fit, ("drift", "compliance"), CONDITIONS, "linear", 5, 0)
+    found = candidates(problem, fit, ("drift", "compliance"), CONDITIONS, "linear", Folds(5, 0))
     assert choose(found) == ["compliance"]
     compliance = found.held_out(["compliance"])
     both = found.held_out(["compliance", "drift"])
@@ -98,7 +109,7 @@ def test_too_few_readings_are_said_to_be():
     made = case(CHAIN, 2, sag=1e-3, count=12)
     problem, fit = fitted([made.points], q=made.q)
     conditions, _ = parse_conditions(None, made.q)
-    found = candidates(problem, fit, ("harmonics",), conditions, "linear", 3, 0)
+    found = candidates(problem, fit, ("harmonics",), conditions, "linear", Folds(3, 0))
     (gain,) = gains(found, [])
     assert np.isnan(gain.gain)
     assert str(gain) == "harmonics: not in the fit, too few readings to judge it"
