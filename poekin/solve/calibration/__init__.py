@@ -3,6 +3,7 @@
 from .apply import apply
 from .calibrate import calibrate
 from .calibration import Calibration, load
+from .compensation import Command
 from .design.choice import Choice, DesignMetrics
 from .design.choose import choose_poses
 from .design.observability import ObservabilityIndices, observability_indices
@@ -20,10 +21,15 @@ from .measurements.simulated import Simulated, simulated
 from .model.parameters import Parameter
 from .model.residuals import Residuals
 from .result import Outlier
+from .selection.term_gain import TermGain
+from .terms.conditions import Conditions
+from .terms.term import Term
 
 __all__ = [
     "Calibration",
     "Choice",
+    "Command",
+    "Conditions",
     "CrossValidation",
     "DesignMetrics",
     "Distances",
@@ -41,6 +47,8 @@ __all__ = [
     "Poses",
     "Residuals",
     "Simulated",
+    "Term",
+    "TermGain",
     "Workspace",
     "apply",
     "calibrate",

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, get_args
+from functools import partial
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
@@ -34,9 +35,19 @@ from .measurements.inputs import parse_measurements, parse_readings
 from .model.configurations import configurations
 from .model.error_model import ErrorModel
 from .model.parameters import ParameterKind, Unit
-from .model.problem import Problem
+from .model.problem import MeasuredPoints, Problem
 from .model.residuals import Residuals
 from .result import Outlier
+from .selection import choose_terms
+from .selection.choose_terms import CANDIDATES
+from .selection.held_out import Folds
+from .selection.term_gain import TermGain
+from .terms.conditions import parse_conditions
+from .terms.named import TermName
+from .terms.term import Term, name_of
+
+Kind = ParameterKind | TermName | Literal["auto"]
+GEOMETRY: tuple[Kind, ...] = ("screws", "home")
 
 
 def calibrate(  # noqa: PLR0913 - options by keyword
@@ -44,8 +55,9 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     q: Any,
     measurements: Any,
     *,
-    parameters: ParameterKind | Sequence[ParameterKind] = ("screws", "home"),
+    parameters: Kind | Sequence[Kind | Term] = GEOMETRY,
     joints: Sequence[str] | None = None,
+    conditions: Mapping[str, Any] | None = None,
     loss: LossName = "linear",
     prior: Mapping[Unit, float] | None = None,
     on_rank_deficiency: OnRankDeficiency = "raise",
@@ -69,13 +81,24 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     measurements : Measurement, sequence of Measurement, or array_like
         One set of them, several (`Poses`, `Points`, `Distances`, `EyeInHand`, `EyeToHand`), or an
         array (N, 4, 4) of poses or (N, 3) of positions of the tip in the base frame, m.
-    parameters : sequence of {"screws", "home", "offsets", "gains", "pitch"}
+    parameters : "auto" or sequence of str or Term
         What may change: "screws" (4 a revolute or helical joint, 2 a prismatic one), "home" (6),
         "offsets" and "gains" (one a coordinate: q <- (1 + g) q + o), "pitch" (one a revolute
         joint). A joint offset tells nothing that screws and home pose do not: it is for calibrating
-        offsets alone. Default ("screws", "home").
+        offsets alone. Default ("screws", "home"). Non-geometric terms, q <- q + B(q, conditions) c:
+        "compliance" (one a joint that carries, per metre of lever of a weight at the wrist; and one
+        per N m of the payload's torque), "coupling" (to the readings of the neighbours),
+        "harmonics" and "second harmonics" (sine and cosine of q, of 2 q), "backlash" (its width),
+        "lag" (per rad of the move before), "drift" (per K, s, or run), and any `Term`. "auto" takes
+        "screws", "home" and those terms that make the error on held-out readings smaller: of the
+        sets that adding the best one at a time leads to, the smallest within one standard error.
     joints : sequence of str, optional
         Names of the joints that may change, all by default.
+    conditions : dict of str to array_like, optional
+        Conditions of the rows of q: "payload" (N,), kg at the tip; "gravity" (3,) or (N, 3), its
+        direction in the base frame, by default -z; "approach" (N, m), signs of the last moves, or
+        "previous" (N, m), the readings before them, by default the row before; "temperature" (N,)
+        or "time" (N,), K or s, which a drift follows, by default the row's number.
     loss : {"linear", "huber", "cauchy", "tukey"}, default "linear"
         Loss ρ; the last three are robust. A measurement counts as one.
     prior : dict of {"rad", "m", "1", "m/rad"} to float, optional
@@ -139,6 +162,8 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     >>> held_out = found.cross_validation
     >>> held_out.after.rms_length < 0.1 * held_out.before.rms_length
     True
+    >>> pk.calibrate(arm, made.q, made.measurements, parameters="auto", folds=4).error_model.kinds
+    ('screws', 'home')
     """
     chain = chain_of(chain)
     q = parse_readings(chain, q)
@@ -146,15 +171,75 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     choice(loss, LOSSES, "loss")
     choice(on_rank_deficiency, get_args(OnRankDeficiency), "on_rank_deficiency")
     whole(iterations, "iterations", 1)
-    problem = build_problem(ErrorModel(chain, parameters, joints), q, sets)
+    given, reference = parse_conditions(conditions, q)
+    auto = isinstance(parameters, str) and parameters == "auto"
+    kinds = GEOMETRY if auto else parameters
+    folds = cross_validation.check_folds(folds, len(q), seed)
+    to_hold_out = folds > 0
+    if folds:
+        folds = min(folds, int(configurations(q).max()) + 1)
+    if auto and folds < 2:
+        raise InputError(
+            f"parameters: 'auto' judges by held-out readings, expected folds >= 2, got {folds}"
+        )
+    model = ErrorModel(chain, kinds, joints, reference)
+    problem = build_problem(model, q, sets).under(given)
+    solve = partial(
+        _solve, loss=loss, prior=prior, iterations=iterations, on_rank_deficiency=on_rank_deficiency
+    )
+    solved = solve(problem)
+    terms: tuple[TermGain, ...] = ()
+    if folds > 1 and (names := CANDIDATES if auto else model.judged):
+        drawn = Folds(folds, seed)
+        tried = choose_terms.candidates(problem, solved.fit, names, given, loss, drawn)
+        chosen = choose_terms.choose(tried) if auto else [name_of(kind) for kind in names]
+        terms = choose_terms.gains(tried, chosen)
+        if auto and chosen:
+            model = ErrorModel(chain, (*GEOMETRY, *chosen), joints, reference)
+            problem = Problem(model, q, sets, problem.initial_frames).under(given)
+            solved = solve(problem)
+    fit = solved.fit
+    held_out = None
+    if folds > 1 and problem.n_equations * (folds - 1) // folds > solved.free.shape[1]:
+        held_out = cross_validation.cross_validate(
+            problem, solved.free, solved.options, folds, seed, progress
+        )
+    doubts = misfit.contradicted(problem, fit)
+    found = _result(problem, solved, held_out, doubts)
+    found = replace(found, vectors=problem.residual_vectors(solved.points, fit.p), terms=terms)
+    reasons = verdict.judge(found, problem, doubts, prior is not None, to_hold_out)
+    found = replace(found, verdict=reasons)
+    for words in found.warnings:
+        warn(words)
+    return found
+
+
+class _Solved(NamedTuple):
+    """A fit, its options, what was free before it, and the errors and points that it began with."""
+
+    identification: Identification
+    free: Array
+    options: FitOptions
+    before: Residuals
+    points: MeasuredPoints
+    fit: Fit
+
+
+def _solve(
+    problem: Problem,
+    loss: LossName,
+    prior: Mapping[Unit, float] | None,
+    iterations: int,
+    on_rank_deficiency: OnRankDeficiency,
+) -> _Solved:
+    """The fit of a problem that was found sound."""
     sigma = _prior(prior, problem)
     identification, free = identify_directions(problem)
     with_prior = identification
     if sigma is not None:
         with_prior, free = identify_directions(problem, np.isfinite(sigma))
     check_rank(with_prior, on_rank_deficiency)
-    noise.check(sets, problem.n_equations, free.shape[1])
-    folds = cross_validation.check_folds(folds, len(q), seed)
+    noise.check(problem.sets, problem.n_equations, free.shape[1])
     start = fit_frames(problem, loss)
     units.check(problem, start)
     # now, while the problem has these errors
@@ -165,36 +250,20 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     if fit.free is not free:
         identification, _ = identify_directions(problem, p=fit.p)
     misfit.check(problem, fit)
-    held_out = None
-    to_hold_out = folds > 0
-    if folds:
-        folds = min(folds, int(configurations(q).max()) + 1)
-    if folds > 1 and problem.n_equations * (folds - 1) // folds > free.shape[1]:
-        held_out = cross_validation.cross_validate(problem, free, options, folds, seed, progress)
-    doubts = misfit.contradicted(problem, fit)
-    found = _result(problem, before, fit, identification, held_out, doubts, options)
-    found = replace(
-        found,
-        vectors=problem.residual_vectors(points, fit.p),
-        verdict=verdict.judge(found, problem, doubts, prior is not None, to_hold_out),
-    )
-    for words in found.warnings:
-        warn(words)
-    return found
+    return _Solved(identification, free, options, before, points, fit)
 
 
 def _result(
     problem: Problem,
-    before: Residuals,
-    fit: Fit,
-    identification: Identification,
+    solved: _Solved,
     held_out: CrossValidation | None,
     doubts: Sequence[misfit.Contradiction],
-    options: FitOptions,
 ) -> Calibration:
     """The calibration that a fit makes, with warnings and remarks."""
+    fit = solved.fit
+    options = solved.options
     after = problem.residuals(fit.p)
-    remarks = explanation.explain(problem, before, after)
+    remarks = explanation.explain(problem, solved.before, after)
     return Calibration(
         nominal=problem.model.nominal,
         chain=problem.model.chain(fit.p[: problem.model_size]),
@@ -202,10 +271,10 @@ def _result(
         values=fit.p,
         covariance=covariance_of(problem, fit, options),
         frames=problem.frame_values(fit.p),
-        identification=identification,
+        identification=solved.identification,
         success=fit.converged,
         steps=tuple(fit.steps),
-        before=before,
+        before=solved.before,
         after=after,
         cross_validation=held_out,
         outliers=_outliers(problem, fit),
@@ -213,7 +282,19 @@ def _result(
         loss=options.loss,
         error_model=problem.model,
         warnings=(*remarks.warnings, *(doubt.words for doubt in doubts if doubt.ratio > 1)),
-        remarks=(*remarks.remarks, *(doubt.words for doubt in doubts if doubt.ratio < 1)),
+        remarks=(
+            *remarks.remarks,
+            *(doubt.words for doubt in doubts if doubt.ratio < 1),
+            *_of_terms(problem),
+        ),
+    )
+
+
+def _of_terms(problem: Problem) -> tuple[str, ...]:
+    if not problem.model.terms:
+        return ()
+    return (
+        "non-geometric terms were fitted: the calibrated chain takes true_joints(q), not the readings",
     )
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
-from typing import overload
+from collections.abc import Mapping, Sequence
+from typing import Any, overload
+
+from numpy.typing import ArrayLike
 
 from ...analysis.compare.compare import compare
 from ...analysis.compare.comparison import Comparison
@@ -13,9 +15,14 @@ from ...formats.dh.from_chain import FromChain
 from ...formats.relink import relinked
 from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import Into, to_urdf
+from ...groups.arrays import Array
+from ...model.coordinates import coordinates
 from ...model.robot import Robot
+from . import compensation
+from .compensation import Command
 from .report import document, html_report, summary, toml_io
 from .result import CalibrationData
+from .terms.term import Term
 
 
 class Calibration(CalibrationData):
@@ -63,7 +70,100 @@ class Calibration(CalibrationData):
     vectors : ResidualVectors or None
         Readings, measured points and their residuals in the base frame; None where it was loaded
         from a file, which does not hold the measurements.
+    terms : tuple of TermGain
+        Gain on held-out readings of each non-geometric term that is in the fit, and with
+        `parameters="auto"` of those that are not.
     """
+
+    def true_joints(self, q: Any, conditions: Mapping[str, Any] | None = None) -> Array:
+        """Joint values at which the calibrated `chain` is where the arm is at these readings.
+
+        Without non-geometric terms they are the readings.
+
+        Parameters
+        ----------
+        q : (..., m) array_like or dict
+            Readings, rad or m.
+        conditions : dict of str to array_like, optional
+            As of `pk.calibrate`, over the leading axes of q made flat. What is not said is as it was
+            at the calibration on average, and the arm comes from nowhere.
+
+        Returns
+        -------
+        q_true : (..., m) ndarray
+            Joint values, rad or m: q + B(q) c.
+
+        Raises
+        ------
+        ShapeError, UnknownName, InputError
+            If q or the conditions do not fit the arm, or the calibration does not know of them.
+
+        Notes
+        -----
+        Accuracy: rounding of the terms. Source: none, it adds them.
+
+        Examples
+        --------
+        >>> import poekin as pk
+        >>> arm = pk.load("ur5").chain()
+        >>> made = pk.calibration.simulated(arm, 40, seed=2)
+        >>> kinds = ("screws", "home", "compliance")
+        >>> found = pk.calibrate(arm, made.q, made.measurements, parameters=kinds, folds=0)
+        >>> q = arm.random(0, 5)
+        >>> T = found.chain.fk(found.true_joints(q))
+        >>> float(abs(found.true_joints(q) - q).max()) < 1e-2
+        True
+        """
+        q = coordinates(q, self.nominal.q_names)
+        return compensation.true_joints(self, q, conditions)
+
+    def compensate(
+        self,
+        T: ArrayLike,
+        *,
+        nearest_to: Any = None,
+        conditions: Mapping[str, Any] | None = None,
+    ) -> Command:
+        """Command for the uncalibrated controller that puts the tool at T.
+
+        Parameters
+        ----------
+        T : (..., 4, 4) array_like
+            Poses where the tip shall be, m.
+        nearest_to : (m,) or (..., m) array_like or dict, optional
+            Configuration to be near to, as of `pk.ik`.
+        conditions : dict of str to array_like, optional
+            As of `true_joints`.
+
+        Returns
+        -------
+        command : Command
+            Joint readings to drive to, and the poses that the nominal arm has there, to be given to
+            a controller that solves its own inverse kinematics.
+
+        Raises
+        ------
+        ShapeError, PoseError, UnknownName, InputError
+            If T, nearest_to or the conditions do not fit the arm; if T is out of reach.
+
+        Notes
+        -----
+        Accuracy: the calibrated arm is at T within 1e-9 m and rad. Source: inverse kinematics of the
+        calibrated arm, then q = q_true - B(q) c by fixed-point iteration, a contraction as terms are
+        small.
+
+        Examples
+        --------
+        >>> import poekin as pk
+        >>> arm = pk.load("ur5").chain()
+        >>> made = pk.calibration.simulated(arm, 40, seed=2)
+        >>> found = pk.calibrate(arm, made.q, made.measurements, folds=0)
+        >>> T = arm.fk(made.q[0])
+        >>> command = found.compensate(T, nearest_to=made.q[0])
+        >>> float(abs(found.chain.fk(command.q) - T).max()) < 1e-9
+        True
+        """
+        return compensation.compensate(self, T, nearest_to, conditions)
 
     def compare(self) -> Comparison:
         """Comparison of the nominal and the calibrated arm, joint by joint.
@@ -213,13 +313,15 @@ class Calibration(CalibrationData):
         return document.document(self)
 
 
-def load(path: str | os.PathLike[str]) -> Calibration:
+def load(path: str | os.PathLike[str], terms: Sequence[Term] = ()) -> Calibration:
     """Calibration in a file that `Calibration.save` wrote.
 
     Parameters
     ----------
     path : str or os.PathLike
         Path of the file.
+    terms : sequence of Term, optional
+        The user's own terms that it was calibrated with: files hold no functions.
 
     Returns
     -------
@@ -233,4 +335,4 @@ def load(path: str | os.PathLike[str]) -> Calibration:
     ModelError
         With file and key, if it is no calibration, of another version, or does not fit together.
     """
-    return Calibration(**vars(toml_io.load(path)))
+    return Calibration(**vars(toml_io.load(path, terms)))

@@ -27,6 +27,7 @@ from .model.error_model import ErrorModel
 from .model.parameters import Parameter
 from .model.residual_vectors import ResidualVectors
 from .model.residuals import Residuals
+from .selection.term_gain import TermGain
 
 
 class Outlier(NamedTuple):
@@ -71,6 +72,7 @@ class CalibrationData(Result):
     remarks: tuple[str, ...] = ()
     verdict: tuple[str, ...] = ()
     vectors: ResidualVectors | None = field(default=None, repr=False)
+    terms: tuple[TermGain, ...] = ()
 
     @property
     def deviations(self) -> Array:

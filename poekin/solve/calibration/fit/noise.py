@@ -5,7 +5,7 @@ estimated from the residuals.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -67,6 +67,14 @@ class Noise:
         if W.ndim == 3:
             return W @ errors
         return W * errors
+
+    def unwhitened(self, k: int, errors: Array) -> Array:
+        """L times whitened errors (N, d) of set k."""
+        W = self._whiten[k]
+        if W.ndim == 3:
+            solved: Any = np.linalg.solve(W, errors[..., None])
+            return np.asarray(solved[..., 0], float)
+        return errors / W[:, 0]
 
     def squares(self, errors: Sequence[Array]) -> list[Array]:
         """s = e^T C^-1 e of each measurement, of the errors (N, d) of each set."""

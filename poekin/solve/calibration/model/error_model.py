@@ -1,11 +1,11 @@
 """Error model of an arm: how its free parameters move the screws, the home pose and the readings.
 
-    A_i <- Ad(e^eta_i) A_i,  M <- M e^eta,  q <- (1 + g) q + o,  v_i <- v_i + h_i omega_i
+    A_i <- Ad(e^eta_i) A_i,  M <- M e^eta,  q <- (1 + g) q + o + B(q) c,  v_i <- v_i + h_i omega_i
 
 Moving a screw by conjugation leaves its axis unit and its pitch as it is. Of the six directions of
 eta_i only those that move the axis are parameters: two tilts and two shifts across it for a
 revolute or helical joint, two tilts for a prismatic one. They are taken in the joint's z-aligned
-frame of the local form, so the numbers stay small.
+frame of the local form, so the numbers stay small. B is the basis of the non-geometric terms.
 """
 
 from __future__ import annotations
@@ -22,14 +22,17 @@ from ....groups.arrays import Array
 from ....groups.vectors import applied
 from ....model.chain import Chain
 from ....model.checks import read_only
+from ..terms.conditions import Conditions, Reference, at_rest
+from ..terms.named import BUILDERS, make_terms
+from ..terms.term import Term, checked_basis, name_of
 from .last_result import LastResult
-from .parameters import free_parameters, names, parse_joints, parse_kinds
+from .parameters import Parameter, free_parameters, names, parse_joints, parse_kinds
 from .tsqr import blocked_product
 
 
 class Errors(NamedTuple):
-    """Parameters p by what they move, in this order: eta_i (n, 6), pitches (n,), eta of the home pose
-    (6,), offsets (m,), gains (m,); 0 where they are not free.
+    """Geometric parameters p by what they move, in this order: eta_i (n, 6), pitches (n,), eta of the
+    home pose (6,), offsets (m,), gains (m,); 0 where they are not free.
     """
 
     screws: Array
@@ -49,18 +52,20 @@ class PosesAndTwists(NamedTuple):
 class ErrorModel:
     """A chain and those of its parameters p that are free; p = 0 is the chain itself.
 
-    `parameters` in the order of p; `kinds` and `moving`, names of joints, as they were asked for.
-    Joints whose axes may move, coordinates whose zero or gain may, are those in `joints` (all where
-    None).
+    `parameters` in the order of p, the coefficients of the `terms` last; `kinds` and `moving`, names
+    of joints, as they were asked for. Joints whose axes may move, coordinates whose readings may be
+    wrong, are those in `joints` (all where None). `reference`: means of the conditions that were
+    given.
     """
 
     def __init__(
         self,
         nominal: Chain,
-        kinds: Sequence[str],
+        kinds: Sequence[str | Term],
         joints: Sequence[str] | None,
+        reference: Reference | None = None,
     ) -> None:
-        kinds = parse_kinds(kinds)
+        kinds = parse_kinds(kinds, tuple(BUILDERS))
         chosen = parse_joints(nominal, joints)
         self.nominal = nominal
         self.kinds = kinds
@@ -78,7 +83,13 @@ class ErrorModel:
         self._places = np.flatnonzero(np.concatenate(masks))
         ends = [0, *accumulate(map(len, masks))]
         self._parts = [slice(*pair) for pair in pairwise(ends)]
+        of_joints = np.abs(nominal.coupling[chosen]).sum(axis=0)
+        self.reference: Reference = reference or {}
+        self.terms = make_terms(kinds, nominal, np.flatnonzero(of_joints), self.reference)
+        self._geometric = int(self._places.size)
         self.parameters = names(nominal, self._free, frames)
+        for term in self.terms:
+            self.parameters += term.parameters
         if not self.parameters:
             listed = ", ".join(map(repr, kinds))
             raise InputError(f"parameters: {listed} of these joints: nothing to calibrate")
@@ -91,13 +102,14 @@ class ErrorModel:
     def errors(self, p: Array) -> Errors:
         """The parameters by what they move."""
         every = np.zeros(self._parts[-1].stop)
-        every[self._places] = p
+        every[self._places] = p[: self._geometric]
         across, *others = (every[part] for part in self._parts)
         screws = self._across @ across.reshape(-1, 4, 1)
         return Errors(screws[..., 0], *others)
 
     def joints(self, p: Array) -> Chain:
         """The moved screws and home pose as a chain of joint values x, without coupling."""
+        p = p[: self._geometric]
         if self._plain and not p.any():
             return self.nominal
         key = p.tobytes()
@@ -114,10 +126,40 @@ class ErrorModel:
             return nominal.replace(screws=A, home=M, pitches=pitches)
         return Chain.from_space(A, M, pitches=pitches)
 
-    def values(self, p: Array, q: Array) -> Array:
-        """Joint values x = C ((1 + g) q + o) + c of the readings q (N, m)."""
+    @property
+    def judged(self) -> tuple[str | Term, ...]:
+        """Kinds of parameters that are about the readings, and may be left out: gains and terms."""
+        return tuple(kind for kind in self.kinds if self.parameters_of(kind))
+
+    def parameters_of(self, kind: str | Term) -> tuple[Parameter, ...]:
+        """Parameters of one term, or the gains."""
+        if kind == "gains":
+            return tuple(p for p in self.parameters if p.what == "gain")
+        named = (term for term in self.terms if term.name == name_of(kind))
+        return tuple(p for term in named for p in term.parameters)
+
+    def basis(self, q: Array, conditions: Conditions | None = None) -> Array:
+        """B (N, m, k) of the terms' coefficients at readings q (N, m), at rest where no conditions are
+        given.
+        """
+        if not self.terms:
+            return np.empty((*q.shape, 0))
+        if conditions is None:
+            conditions = at_rest(q, self.reference)
+        return np.concatenate([checked_basis(term, q, conditions) for term in self.terms], axis=2)
+
+    def true_joints(self, p: Array, q: Array, conditions: Conditions | None = None) -> Array:
+        """Values q + B c / (1 + g) (N, m), at which `chain(p)` is where the arm is at readings q."""
+        added = self.basis(q, conditions) @ p[self._geometric :]
+        return q + added / (1.0 + self.errors(p).gains)
+
+    def values(self, p: Array, q: Array, basis: Array | None = None) -> Array:
+        """Joint values x = C ((1 + g) q + o + B c) + c of the readings q (N, m)."""
         errors = self.errors(p)
         x = (1.0 + errors.gains) * q + errors.offsets
+        if self.terms:
+            B = self.basis(q) if basis is None else basis
+            x = x + B @ p[self._geometric :]
         if self._coupling is not None:
             x = x @ self._coupling.T
         return x + self.nominal.offset
@@ -153,33 +195,37 @@ class ErrorModel:
         moves = self._moves(self.errors(p).screws)
         return -se3.ad(screws) @ moves
 
-    def poses(self, p: Array, q: Array) -> Array:
-        """T_base_tip (N, 4, 4) at the readings q (N, m)."""
+    def poses(self, p: Array, q: Array, basis: Array | None = None) -> Array:
+        """T_base_tip (N, 4, 4) at the readings q (N, m), with the terms' basis there: by default at
+        rest.
+        """
+        B = self.basis(q) if basis is None else basis
 
         def poses() -> Array:
             moved = self.joints(p)
-            return read_only(moved.fk(self.values(p, q)))
+            return read_only(moved.fk(self.values(p, q, B)))
 
-        return self._last_poses(_key(p, q), poses)
+        return self._last_poses(_key(p, q, B), poses)
 
-    def poses_and_twists(self, p: Array, q: Array) -> PosesAndTwists:
+    def poses_and_twists(self, p: Array, q: Array, basis: Array | None = None) -> PosesAndTwists:
         """Poses at the readings q (N, m), and how the parameters move them.
 
         At p the motion of joint i is e^eta_i with d(e^eta) e^-eta = J_l(eta) d eta, and the home
         pose's M e^eta with J_r(eta); a pitch slides along the joint's moved axis.
         """
+        B = self.basis(q) if basis is None else basis
 
         def poses_and_twists() -> PosesAndTwists:
-            T = self.poses(p, q)
-            D = self._twists(p, q)
+            T = self.poses(p, q, B)
+            D = self._twists(p, q, B)
             return PosesAndTwists(T, read_only(D))
 
-        return self._last_twists(_key(p, q), poses_and_twists)
+        return self._last_twists(_key(p, q, B), poses_and_twists)
 
-    def _twists(self, p: Array, q: Array) -> Array:
+    def _twists(self, p: Array, q: Array, basis: Array) -> Array:
         """Space twists (N, 6, P) per unit of each parameter."""
         joints = self.joints(p)
-        x = self.values(p, q)
+        x = self.values(p, q, basis)
         errors = self.errors(p)
         free = self._free
         derivatives = joints.screw_derivatives(x)
@@ -190,7 +236,7 @@ class ErrorModel:
             free.offsets,
             free.gains,
         )
-        if any(part.any() for part in of_joints):
+        if self.terms or any(part.any() for part in of_joints):
             J = joints.jacobian(x, frame="space")
             slides = np.zeros_like(J)
             directions = J[:, :3]
@@ -200,7 +246,7 @@ class ErrorModel:
                 J = J @ self._coupling
             offset_by = q[:, None, free.gains]
             gains = J[..., free.gains] * offset_by
-            readings = [J[..., free.offsets], gains]
+            readings = [J[..., free.offsets], gains, J @ basis]
         if free.home.any():
             J_r = se3.right_jacobian(errors.home)
             parts.append(derivatives.home @ J_r)
@@ -225,6 +271,6 @@ class ErrorModel:
         return of_all[:, :, self._free.screws]
 
 
-def _key(p: Array, q: Array) -> tuple[bytes, int, bytes]:
-    """Key of parameters and readings (N, m): without coordinates N tells the readings apart."""
-    return p.tobytes(), len(q), q.tobytes()
+def _key(p: Array, q: Array, basis: Array) -> tuple[bytes, int, bytes, bytes]:
+    """Key of parameters, readings (N, m) and basis: without coordinates N tells readings apart."""
+    return p.tobytes(), len(q), q.tobytes(), basis.tobytes()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import compress
-from typing import Literal, NamedTuple, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from ....groups.arrays import Array
 from ....model.chain import Chain
 
 ParameterKind = Literal["screws", "home", "offsets", "gains", "pitch"]
-Unit = Literal["rad", "m", "1", "m/rad"]
+Unit = Literal["rad", "m", "1", "m/rad", "rad/m", "rad/(N m)", "rad/s", "m/s", "rad/K", "m/K"]
 Mask = NDArray[np.bool_]
 KINDS: tuple[ParameterKind, ...] = get_args(ParameterKind)
 ROTATIONS = ("turn about x", "turn about y", "turn about z")
@@ -32,7 +32,7 @@ class Parameter(NamedTuple):
         A joint, a coordinate, "home", or an unknown frame.
     what : str
         What it is, such as "tilt about (1, 0, 0)".
-    unit : {"rad", "m", "1", "m/rad"}
+    unit : {"rad", "m", "1", "m/rad", "rad/m", "rad/(N m)", "rad/s", "m/s", "rad/K", "m/K"}
         Its unit.
     """
 
@@ -119,12 +119,13 @@ def _axis_names(
     return found
 
 
-def parse_kinds(kinds: Sequence[str]) -> tuple[str, ...]:
-    """Kinds of parameters, one or several. Raises: InputError."""
+def parse_kinds(kinds: Sequence[Any], others: Sequence[str] = ()) -> tuple[Any, ...]:
+    """Kinds of parameters, one or several; those that are no words are passed. Raises: InputError."""
     every = _several(kinds, "parameters")
-    known = ", ".join(map(repr, KINDS))
+    names = (*KINDS, *others)
+    known = ", ".join(map(repr, names))
     for kind in every:
-        if kind not in KINDS:
+        if isinstance(kind, str) and kind not in names:
             raise InputError(f"parameters: expected some of {known}, got {safe_repr(kind)}")
     if not every:
         raise InputError(f"parameters: nothing to calibrate; expected some of {known}")
@@ -143,7 +144,7 @@ def parse_joints(chain: Chain, joints: Sequence[str] | None) -> Mask:
     return np.array([name in named for name in chain.joint_names], bool)
 
 
-def _several(names: Sequence[str], what: str) -> tuple[str, ...]:
+def _several(names: Sequence[Any], what: str) -> tuple[Any, ...]:
     if isinstance(names, str):
         return (names,)
     if not isinstance(names, Iterable):

@@ -13,6 +13,7 @@ from ....groups import se3
 from ....groups.arrays import Array
 from ....model.checks import read_only
 from ..measurements.measurement import Measurement, Rows, rows_of
+from ..terms.conditions import Conditions, in_order
 from .error_model import ErrorModel
 from .last_result import LastResult
 from .parameters import frame_parameters
@@ -39,7 +40,8 @@ class Problem:
     """An error model, the readings q, sets of measurements, and their unknown frames at p = 0.
 
     p is the model's parameters and then six of each unknown frame (T <- T e^eta, about its own
-    axes) or three of a point.
+    axes) or three of a point. `basis` (N, m, k) of the model's terms, by default that of readings in
+    the order in which they were taken.
     """
 
     def __init__(
@@ -48,9 +50,11 @@ class Problem:
         q: Array,
         sets: Sequence[Measurement],
         initial_frames: Sequence[Array] | None = None,
+        basis: Array | None = None,
     ) -> None:
         self.model = model
         self.q = q
+        self.basis = self._in_order(q) if basis is None else basis
         self.sets = tuple(sets)
         self.rows = [rows_of(s, len(q)) for s in self.sets]
         numbers = range(len(self.sets))
@@ -67,11 +71,28 @@ class Problem:
         self.parameters = tuple(named)
         lengths = [p.unit in ("m", "m/rad") for p in named]
         self.scale = np.where(lengths, model.nominal.reach, 1.0)
+        self.scale[self._of_terms] = _inverse_sizes(self.basis)
         if initial_frames is None:
             initial_frames = self._guesses()
         self.initial_frames = tuple(initial_frames)
         self._last_errors = LastResult[list[Array]]()
         self._last_residuals = LastResult[Residuals]()
+
+    def under(self, conditions: Conditions) -> Problem:
+        """The problem with the readings under these conditions."""
+        if not self.model.terms:
+            return self
+        basis = self.model.basis(self.q, conditions)
+        return Problem(self.model, self.q, self.sets, self.initial_frames, basis)
+
+    @property
+    def _of_terms(self) -> slice:
+        """Coefficients of the terms among the parameters."""
+        end = self.model_size
+        return slice(end - self.basis.shape[2], end)
+
+    def _in_order(self, q: Array) -> Array:
+        return self.model.basis(q, in_order(q, self.model.reference))
 
     def _guesses(self) -> list[Array]:
         """Initial guesses of the unknown frames: of those that sets share, by the largest set."""
@@ -140,7 +161,7 @@ class Problem:
 
     def _at(self, p: Array) -> Iterator[tuple[Measurement, Array, list[Array]]]:
         """Each set with the poses of its readings and its unknown frames."""
-        T = self.model.poses(self._of_model(p), self.q)
+        T = self.model.poses(self._of_model(p), self.q, self.basis)
         frames_of_sets = self._frames_of_sets(p)
         for s, rows, frames in zip(self.sets, self.rows, frames_of_sets, strict=True):
             yield s, T[rows], frames
@@ -175,15 +196,17 @@ class Problem:
         q (K, m): other readings, at each of which every set measures.
         """
         rows = self.rows
+        basis = self.basis
         if q is None:
             q = self.q
         else:
+            basis = self._in_order(q)
             every = np.arange(len(q))
             rows = [every] * len(self.sets)
         if errors is None:
             shapes = [(len(r), s.width) for r, s in zip(rows, self.sets, strict=True)]
             errors = list(map(np.zeros, shapes))
-        T, D = self.model.poses_and_twists(self._of_model(p), q)
+        T, D = self.model.poses_and_twists(self._of_model(p), q, basis)
         found = []
         for k, frames in enumerate(self._frames_of_sets(p)):
             here = rows[k]
@@ -210,12 +233,15 @@ class Problem:
             kept = np.flatnonzero(new[rows] >= 0)
             kept_rows = new[rows[kept]]
             sets.append(s.subset(kept).with_rows(kept_rows))
-        return Problem(
+        part = Problem(
             self.model,
             self.q[chosen],
             sets,
             self.initial_frames,
+            self.basis[chosen],
         )
+        part.scale = self.scale
+        return part
 
 
 def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:
@@ -228,6 +254,13 @@ def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:
         whose = f" of {frame.shared!r}" if frame.shared else which
         names.append(frame.name + whose)
     return names
+
+
+def _inverse_sizes(basis: Array) -> Array:
+    """1 / root mean square (k,) of each coefficient's columns of the basis (N, m, k), or 1."""
+    squares = np.sum(basis * basis, axis=(0, 1)) / len(basis)
+    sizes = np.sqrt(squares)
+    return 1.0 / np.where(sizes > 0.0, sizes, 1.0)
 
 
 def _moved(frame: Array, eta: Array) -> Array:

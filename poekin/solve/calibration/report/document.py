@@ -25,6 +25,7 @@ def document(found: CalibrationData) -> dict[str, object]:
         "frames": found.frames,
         "noise_std": found.noise_std,
         "outliers": found.outliers,
+        "terms": found.terms,
         "workspace": _workspace(found),
         "verdict": found.verdict,
         "warnings": found.warnings,

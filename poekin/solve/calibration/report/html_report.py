@@ -60,6 +60,7 @@ def _residuals(found: CalibrationData) -> Iterator[str]:
     yield from (paragraph(f"Do not use it: {words}.") for words in found.verdict)
     yield from (paragraph(f"Warning: {words}.") for words in found.warnings)
     yield from (paragraph(f"{words}.") for words in found.remarks)
+    yield from (paragraph(f"{term}.") for term in found.terms)
     if held_out is None:
         yield paragraph(
             "No data were held out: these figures are of the measurements that the arm was fitted "

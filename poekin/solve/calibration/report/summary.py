@@ -30,6 +30,7 @@ def text_of(found: CalibrationData) -> str:
         str(found.identification),
         *_table(found),
         _known(found),
+        *map(str, found.terms),
         *outliers,
         *(f"do not use it: {words}" for words in found.verdict),
         *(f"warning: {words}" for words in found.warnings),

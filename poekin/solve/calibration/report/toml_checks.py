@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,8 @@ from ....model.checks import read_only
 from ..model.error_model import ErrorModel
 from ..model.parameters import Parameter
 from ..result import CalibrationData
+from ..terms.conditions import MEANS
+from ..terms.term import Term
 
 # reaches: how near the calibrated chain is to what its parameters make of the nominal one
 _AGREE = 1e-9
@@ -30,14 +33,26 @@ class Named(NamedTuple):
     covariance: Array
 
 
-def error_model(keys: Keys, nominal: Chain) -> ErrorModel:
-    """The error model of the nominal chain. Raises: ModelError."""
-    kinds = keys.texts("kinds")
+def error_model(keys: Keys, nominal: Chain, terms: Sequence[Term]) -> ErrorModel:
+    """The error model of the nominal chain, with the user's own terms. Raises: ModelError."""
+    own = {term.name: term for term in terms}
+    kinds = [own.get(kind, kind) for kind in keys.texts("kinds")]
     joints = keys.texts("joints")
     try:
-        return ErrorModel(nominal, kinds, joints)
+        return ErrorModel(nominal, kinds, joints, _reference(keys))
     except PoekinError as fault:
         raise ModelError(f"{keys.place}: {fault}") from fault
+
+
+def _reference(keys: Keys) -> dict[str, Any]:
+    """Means of the conditions that were given. Raises: ModelError."""
+    if "conditions" not in keys.data:
+        return {}
+    own = keys.table("conditions", (*MEANS, "gravity"))
+    found: dict[str, Any] = {name: own.number(name) for name in MEANS if name in own.data}
+    if "gravity" in own.data:
+        found["gravity"] = own.array("gravity", (3,)).tolist()
+    return found
 
 
 def frames(keys: Keys) -> dict[str, Array]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from itertools import starmap
 from typing import Any
 
@@ -21,6 +22,8 @@ from ..fit.minimise import Step
 from ..fit.noise import NoiseEstimate
 from ..model.residuals import FIELDS, Residuals
 from ..result import CalibrationData, Outlier
+from ..selection.term_gain import TermGain
+from ..terms.term import Term, name_of
 from . import document, toml_checks
 
 _TOP = (
@@ -45,6 +48,8 @@ _TOP = (
     "verdict",
     "warnings",
     "remarks",
+    "conditions",
+    "term",
 )
 _COUNTS = ("size", "identifiable", "rank", "n_equations")
 _INDICES = ("condition", "smallest", "O1", "amplification")
@@ -59,7 +64,7 @@ def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
         "version": VERSION,
         "success": found.success,
         "loss": found.loss,
-        "kinds": found.error_model.kinds,
+        "kinds": list(map(name_of, found.error_model.kinds)),
         "joints": found.error_model.moving,
         "outliers": found.outliers,
         "covariance": found.covariance,
@@ -72,19 +77,21 @@ def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
         "after": found.after,
         "cross_validation": found.cross_validation,
         **{name: getattr(found, name) or None for name in _SAID},
+        "conditions": dict(found.error_model.reference) or None,
+        "term": [term._asdict() for term in found.terms] or None,
         "parameter": document.parameters(found),
         "noise_std": [_data(noise._asdict()) if noise else {} for noise in found.noise_std],
     }
     write_whole(path, toml_text.make_text(_data(data)).encode())
 
 
-def load(path: str | os.PathLike[str]) -> CalibrationData:
+def load(path: str | os.PathLike[str], terms: Sequence[Term] = ()) -> CalibrationData:
     """Read what `save` wrote; see `calibration.load`. Raises: FileError, ModelError."""
     opened = chain_toml.opened(path)
     keys = Keys(opened.data, opened.place, _TOP)
     nominal = chain_toml.to_chain(keys.table(NOMINAL))
     chain = chain_toml.to_chain(keys.table(CALIBRATED))
-    model = toml_checks.error_model(keys, nominal)
+    model = toml_checks.error_model(keys, nominal, terms)
     frames = toml_checks.frames(keys.table("frames"))
     named = toml_checks.parameters(keys, model, frames)
     toml_checks.check_chain(keys, model, named.values, chain)
@@ -106,6 +113,7 @@ def load(path: str | os.PathLike[str]) -> CalibrationData:
         loss=keys.text("loss", LOSSES),  # type: ignore[arg-type]  # one of these
         error_model=model,
         vectors=None,
+        terms=tuple(map(_term, keys.tables("term", TermGain._fields))),
         **{name: keys.texts(name) for name in _SAID if name in keys.data},
     )
     toml_checks.check_sets(keys, found)
@@ -136,6 +144,16 @@ def _noise(keys: Keys) -> NoiseEstimate | None:
         return None
     angle = keys.number("angle") if "angle" in keys.data else None
     return NoiseEstimate(angle, keys.number("length"))
+
+
+def _term(keys: Keys) -> TermGain:
+    return TermGain(
+        keys.text("name"),
+        keys.truth("chosen"),
+        keys.whole("coefficients"),
+        keys.number("gain", finite=False),
+        keys.number("deviation", finite=False),
+    )
 
 
 def _steps(keys: Keys) -> tuple[Step, ...]:

@@ -305,7 +305,8 @@ WRONG = {
     "parameters": (
         {"parameters": ["axes"]},
         InputError,
-        "parameters: expected some of 'screws', 'home', 'offsets', 'gains', 'pitch', got 'axes'",
+        "parameters: expected some of 'screws', 'home', 'offsets', 'gains', 'pitch', 'compliance',"
+        " 'coupling', 'harmonics', 'second harmonics', 'backlash', 'lag', 'drift', got 'axes'",
     ),
 }
 

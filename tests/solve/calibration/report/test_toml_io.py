@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import FileError, MissingExtra, ModelError, PoekinError
 from poekin.groups import se3
-from poekin.solve.calibration import Poses, calibrate, load
+from poekin.solve.calibration import Parameter, Poses, Term, calibrate, load
 from poekin.solve.calibration.measurements.simulated import simulated
 
 SCREWS = [
@@ -38,6 +38,13 @@ COUPLED = pk.Chain.from_space(
     offset=[0.1, 0, 0.2, 0, 0.3],
 )  # fmt: skip
 
+RIPPLE = Term(
+    "ripple",
+    (Parameter("joint1", "ripple", "rad"),),
+    lambda q, conditions: np.sin(9 * q[..., None]),
+)
+CONDITIONS = {"payload": np.linspace(0, 3, 60), "gravity": [0.0, 1, -1], "time": np.arange(60.0)}
+
 
 def case(name):
     if name == "coupled":
@@ -52,12 +59,16 @@ def case(name):
         return calibrate(
             ARM, q, ARM.fk(q), parameters=("pitch", "home"), joints=["joint1", "joint4"], folds=3
         )
+    if name == "terms":
+        q = ARM.random(0, 60)
+        kinds = ("home", "compliance", "backlash", RIPPLE)
+        return calibrate(ARM, q, ARM.fk(q), parameters=kinds, conditions=CONDITIONS, folds=3)
     kind, _, unknown = name.partition(" ")
     s = simulated(ARM, 40, kind=kind, outliers=0.1, unknown=bool(unknown))
     return calibrate(ARM, s.q, s.measurements, loss="huber", folds=2, on_rank_deficiency="fix")
 
 
-NAMES = ["poses", "eye-in-hand", "points unknown", "distances unknown", "coupled", "pitch"]
+NAMES = ["poses", "eye-in-hand", "points unknown", "distances unknown", "coupled", "pitch", "terms"]
 
 
 @pytest.fixture(scope="module", params=NAMES)
@@ -87,7 +98,7 @@ def same(a, b):
 
 def test_a_calibration_comes_back_to_the_last_bit(found, tmp_path):
     found.save(tmp_path / "arm.toml")
-    again = load(tmp_path / "arm.toml")
+    again = load(tmp_path / "arm.toml", [RIPPLE])
     for field in fields(found):
         if field.name not in ("error_model", "vectors"):  # measurements are not in the file
             assert same(getattr(found, field.name), getattr(again, field.name)), field.name
@@ -95,8 +106,16 @@ def test_a_calibration_comes_back_to_the_last_bit(found, tmp_path):
     assert str(again) == str(found)
     q = found.nominal.random(3, 4)
     np.testing.assert_array_equal(again.pose_covariance(q), found.pose_covariance(q))
+    np.testing.assert_array_equal(again.true_joints(q), found.true_joints(q))
+    assert again.error_model.reference == found.error_model.reference
     again.save(tmp_path / "again.toml")
     assert (tmp_path / "again.toml").read_text() == (tmp_path / "arm.toml").read_text()
+
+
+def test_a_term_of_ones_own_has_to_be_given_again(tmp_path):
+    case("terms").save(tmp_path / "arm.toml")
+    with pytest.raises(ModelError, match="got 'ripple'"):
+        load(tmp_path / "arm.toml")
 
 
 def test_the_robot_in_the_file_moves_as_the_calibrated_chain(saved):
@@ -150,7 +169,8 @@ FAULTS = {
     "kinds": (
         '    "screws",\n',
         '    "screw",\n',
-        r"parameters: expected some of 'screws', 'home', 'offsets', 'gains', 'pitch', got 'screw'",
+        r"parameters: expected some of 'screws', 'home', 'offsets', 'gains', 'pitch', 'compliance',"
+        r" 'coupling', 'harmonics', 'second harmonics', 'backlash', 'lag', 'drift', got 'screw'",
     ),
     "joint": (
         'joints = [\n    "joint1"',

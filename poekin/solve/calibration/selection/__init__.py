@@ -1,0 +1,1 @@
+"""Choice of non-geometric terms by the error on held-out readings."""
