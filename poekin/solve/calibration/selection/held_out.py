@@ -12,6 +12,7 @@ from ....groups.arrays import Array
 from ....groups.vectors import norms
 from ..fit.fitting import Fit
 from ..fit.losses import LossName, loss
+from ..model.configurations import configurations
 from ..model.problem import Problem
 from ..model.tsqr import blocked_product, qr_r
 
@@ -33,12 +34,14 @@ class HeldOut(NamedTuple):
     @property
     def deviation(self) -> float:
         """Standard error of the score."""
-        return float(np.std(self.whitened, ddof=1) / np.sqrt(len(self.whitened)))
+        scatter = np.std(self.whitened, ddof=1)
+        return float(scatter / np.sqrt(len(self.whitened)))
 
     @property
     def rms_length(self) -> float:
         """Root mean square error, m."""
-        return float(np.sqrt(np.mean(self.lengths)))
+        mean = np.mean(self.lengths)
+        return float(np.sqrt(mean))
 
 
 class Folds(NamedTuple):
@@ -49,7 +52,8 @@ class Folds(NamedTuple):
 
     def of(self, label: NDArray[np.intp]) -> NDArray[np.intp]:
         """Fold of each configuration; label (N,), the configuration of each reading."""
-        order = np.random.default_rng(self.seed).permutation(label.max() + 1)
+        rng = np.random.default_rng(self.seed)
+        order = rng.permutation(label.max() + 1)
         found = np.empty(len(order), np.intp)
         for k, drawn in enumerate(np.array_split(order, self.count)):
             found[drawn] = k
@@ -75,22 +79,28 @@ class LinearFit:
     ) -> None:
         self._problem = problem
         self._noise = fit.noise
-        label = _configurations(problem.q)
+        label = configurations(problem.q)
         self._groups = [label[rows] for rows in problem.rows]
         rows = self._weighted(fit.p, name)
         every = np.concatenate(list(directions.values()), axis=1)
         columns = blocked_product(rows[:, :-1], every)
         sizes = np.linalg.norm(columns, axis=0)
         columns /= np.where(sizes > 0.0, sizes, 1.0)
-        _, s, Vt = np.linalg.svd(qr_r(columns), full_matrices=False)
+        triangle = qr_r(columns)
+        _, s, Vt = np.linalg.svd(triangle, full_matrices=False)
         kept = s > _RANK * s[:1]
-        self._Q = blocked_product(columns, Vt[kept].T / s[kept])
-        ends = np.cumsum([D.shape[1] for D in directions.values()])
-        parts = np.split(s[kept, None] * Vt[kept], ends[:-1], axis=1)
+        s = s[kept]
+        Vt = Vt[kept]
+        self._Q = blocked_product(columns, Vt.T / s)
+        widths = [D.shape[1] for D in directions.values()]
+        *inner, _ = np.cumsum(widths)
+        in_Q = s[:, None] * Vt
+        parts = np.split(in_Q, inner, axis=1)
         self._columns = dict(zip(directions, parts, strict=True))
         self._b = rows[:, -1]
         pairs = zip(self._groups, problem.sets, strict=True)
-        numbers = [np.repeat(folds.of(label)[group], s.width) for group, s in pairs]
+        of_configuration = folds.of(label)
+        numbers = [np.repeat(of_configuration[group], s.width) for group, s in pairs]
         fold = np.concatenate(numbers)
         self._folds = [np.flatnonzero(fold == k) for k in range(folds.count)]
 
@@ -101,9 +111,11 @@ class LinearFit:
         for k, (errors, jacobian) in enumerate(self._problem.linearised(p)):
             e = self._noise.whitened(k, errors[..., None])
             J = self._noise.whitened(k, jacobian) * self._problem.scale
-            weight = loss(name, np.sum(e * e, axis=(1, 2)), errors.shape[1]).weight
+            squares = np.sum(e * e, axis=(1, 2))
+            weight = loss(name, squares, errors.shape[1]).weight
             self._weights.append(weight)
-            rows = np.concatenate([J, e], axis=2) * np.sqrt(weight)[:, None, None]
+            root = np.sqrt(weight)
+            rows = np.concatenate([J, e], axis=2) * root[:, None, None]
             found.append(rows.reshape(-1, rows.shape[2]))
         return np.concatenate(found)
 
@@ -116,11 +128,13 @@ class LinearFit:
         """W and more columns: those of a group, as far as they are not in the span of W."""
         columns = self._columns[name]
         sizes = np.linalg.norm(columns, axis=0)
-        columns = columns[:, sizes > 0.0] / sizes[sizes > 0.0]
+        known = sizes > 0.0
+        columns = columns[:, known] / sizes[known]
         for _ in range(2):  # Gram-Schmidt is exact the second time
             columns = columns - W @ (W.T @ columns)
         U, s, _ = np.linalg.svd(columns, full_matrices=False)
-        return np.concatenate([W, U[:, s > _INDEPENDENT]], axis=1)
+        independent = U[:, s > _INDEPENDENT]
+        return np.concatenate([W, independent], axis=1)
 
     def held_out(self, W: Array) -> HeldOut | None:
         """Errors with these columns fitted; None where a fold has to itself what some are known by."""
@@ -130,9 +144,12 @@ class LinearFit:
             own = self._Q[rows]
             QW = blocked_product(own, W)
             left = np.eye(W.shape[1]) - QW.T @ QW
-            if np.linalg.eigvalsh(left).min(initial=1.0) < _INDEPENDENT:
+            least = np.linalg.eigvalsh(left).min(initial=1.0)
+            if least < _INDEPENDENT:
                 return None
-            r[rows] -= QW @ np.linalg.solve(left, W.T @ (total - own.T @ r[rows]))
+            of_others = total - own.T @ r[rows]
+            z = np.linalg.solve(left, W.T @ of_others)
+            r[rows] -= QW @ z
         return self._by_configuration(r)
 
     def _by_configuration(self, r: Array) -> HeldOut:
@@ -143,27 +160,20 @@ class LinearFit:
         measured = np.zeros(count)
         begin = 0
         for k, (s, group) in enumerate(zip(self._problem.sets, self._groups, strict=True)):
-            e = r[begin : begin + len(s) * s.width].reshape(len(s), s.width)
-            begin += e.size
+            end = begin + len(s) * s.width
+            e = r[begin:end].reshape(len(s), s.width)
+            begin = end
             weight = self._weights[k]
             known = weight > 0
-            np.add.at(whitened, group, np.sum(e * e, axis=1))
+            squares = np.sum(e * e, axis=1)
+            np.add.at(whitened, group, squares)
             np.add.at(numbers, group, known * s.width)
             roots = np.sqrt(np.where(known, weight, 1.0))
-            raw = self._noise.unwhitened(k, e / roots[:, None])[:, s.angular :]
-            points = max(1, raw.shape[1] // 3)
-            np.add.at(lengths, group, norms(raw) ** 2 / points * known)
+            raw = self._noise.unwhitened(k, e / roots[:, None])
+            linear = raw[:, s.angular :]
+            points = max(1, linear.shape[1] // 3)
+            of_points = norms(linear) ** 2 / points
+            np.add.at(lengths, group, of_points * known)
             np.add.at(measured, group, known)
         seen = measured > 0
         return HeldOut(whitened[seen] / numbers[seen], lengths[seen] / measured[seen])
-
-
-def _configurations(q: Array) -> NDArray[np.intp]:
-    """Number (N,) of the configuration of each reading (N, m), in order of first appearance: equal to
-    a thousandth of rad or m.
-    """
-    rounded = np.round(q, 3)
-    _, first, label = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), np.intp)
-    rank[np.argsort(first)] = np.arange(len(first))
-    return rank[label.ravel()]
