@@ -11,9 +11,12 @@ import poekin as pk
 from poekin.errors import InputError
 from poekin.groups import se3
 from poekin.solve.calibration import Distances, EyeInHand, Measurement, Points, Poses, simulated
+from poekin.solve.calibration.causes import most_likely as causes
 from poekin.solve.calibration.causes.most_likely import build_problem, most_likely
+from poekin.solve.calibration.diagnostics.explanation import Explanation, Size
 from poekin.solve.calibration.measurements.inputs import parse_measurements
 from poekin.solve.calibration.model.error_model import ErrorModel
+from poekin.solve.calibration.model.problem import Problem
 from tests.solve.calibration.causes.wrong_data import Wrong, arm, wrong_data
 
 PUMA = arm("puma560")
@@ -104,3 +107,42 @@ def test_a_chain_of_slides_has_no_other_zeros():
     q = gantry.random(0, 20)
     cause = most_likely(ErrorModel(gantry, ("home",), None), -q, [Poses(gantry.fk(q))])
     assert cause is None or "added" not in cause.words
+
+
+@pytest.mark.parametrize("by", [1, -1, 2, -2])
+def test_readings_some_rows_off_are_named_by_how_many(by):
+    made = simulated(PUMA, 30, seed=1)
+    cause = most_likely(MODEL, np.roll(made.q, by, axis=0), [made.measurements])
+    assert cause is not None
+    assert cause.words == f"each measurement {by:+d} rows of q further on"
+
+
+@pytest.mark.parametrize(("size", "together"), [
+    (Size(2.0, 0.3), 0.8), (Size(2.0), 0.5), (Size(0.0, 0.0), 1e-12),
+])  # fmt: skip
+def test_an_error_is_taken_together_in_rad_and_reaches(size, together):
+    assert causes._together(size, 4.0) == pytest.approx(together)
+
+
+@pytest.mark.parametrize(("ratio", "named"), [(0.99 / 4.5, True), (1.01 / 4.5, False)])
+def test_base_and_tool_are_named_where_they_explain_a_set_four_and_a_half_times_better(
+    ratio, named, monkeypatch
+):
+    q = PUMA.random(0, 20)
+    problem = Problem(MODEL, q, [Poses(PUMA.fk(q) @ se3.exp([0, 0, 0, 0.1, 0, 0]))])
+    found = Explanation(Size(0.5, 0.1), Size(0.2, 0.1), Size(0.1 * ratio, 0.0))
+    monkeypatch.setattr(causes, "explained", lambda *given: found)
+    cause = causes._of_base_and_tool(problem)
+    assert (cause is not None) == named
+
+
+def test_nothing_is_tried_of_a_nominal_arm_that_is_off_by_a_centimetre_a_metre(monkeypatch):
+    tried = []
+    monkeypatch.setattr(causes, "_others", lambda *given: tried.append(given) or [])
+    monkeypatch.setattr(causes, "explained", lambda *given: None)
+    q = PUMA.random(0, 20)
+    for off, looked in ((0.0099, 0), (0.0101, 1)):
+        moved = PUMA.fk(q)
+        moved[:, 2, 3] += off * PUMA.reach
+        most_likely(MODEL, q, [Poses(moved)])
+        assert len(tried) == looked
