@@ -33,7 +33,8 @@ class HeldOut(NamedTuple):
     @property
     def deviation(self) -> float:
         """Standard error of the score."""
-        return float(np.std(self.whitened, ddof=1) / np.sqrt(len(self.whitened)))
+        count = len(self.whitened)
+        return float(np.std(self.whitened, ddof=1) / np.sqrt(count))
 
     @property
     def rms_length(self) -> float:
@@ -101,9 +102,12 @@ class LinearFit:
         for k, (errors, jacobian) in enumerate(self._problem.linearised(p)):
             e = self._noise.whitened(k, errors[..., None])
             J = self._noise.whitened(k, jacobian) * self._problem.scale
-            weight = loss(name, np.sum(e * e, axis=(1, 2)), errors.shape[1]).weight
+            squares = np.sum(e * e, axis=(1, 2))
+            weight = loss(name, squares, errors.shape[1]).weight
             self._weights.append(weight)
-            rows = np.concatenate([J, e], axis=2) * np.sqrt(weight)[:, None, None]
+            roots = np.sqrt(weight)
+            rows = np.concatenate([J, e], axis=2)
+            rows *= roots[:, None, None]
             found.append(rows.reshape(-1, rows.shape[2]))
         return np.concatenate(found)
 
@@ -132,7 +136,9 @@ class LinearFit:
             left = np.eye(W.shape[1]) - QW.T @ QW
             if np.linalg.eigvalsh(left).min(initial=1.0) < _INDEPENDENT:
                 return None
-            r[rows] -= QW @ np.linalg.solve(left, W.T @ (total - own.T @ r[rows]))
+            others = total - own.T @ r[rows]
+            z = np.linalg.solve(left, W.T @ others)
+            r[rows] -= QW @ z
         return self._by_configuration(r)
 
     def _by_configuration(self, r: Array) -> HeldOut:
@@ -143,19 +149,25 @@ class LinearFit:
         measured = np.zeros(count)
         begin = 0
         for k, (s, group) in enumerate(zip(self._problem.sets, self._groups, strict=True)):
-            e = r[begin : begin + len(s) * s.width].reshape(len(s), s.width)
-            begin += e.size
+            end = begin + len(s) * s.width
+            e = r[begin:end].reshape(-1, s.width)
+            begin = end
             weight = self._weights[k]
             known = weight > 0
             np.add.at(whitened, group, np.sum(e * e, axis=1))
             np.add.at(numbers, group, known * s.width)
-            roots = np.sqrt(np.where(known, weight, 1.0))
-            raw = self._noise.unwhitened(k, e / roots[:, None])[:, s.angular :]
+            weight = np.where(known, weight, 1.0)
+            roots = np.sqrt(weight)
+            raw = self._noise.unwhitened(k, e / roots[:, None])
+            raw = raw[:, s.angular :]
             points = max(1, raw.shape[1] // 3)
-            np.add.at(lengths, group, norms(raw) ** 2 / points * known)
+            squares = norms(raw) ** 2 / points
+            np.add.at(lengths, group, squares * known)
             np.add.at(measured, group, known)
         seen = measured > 0
-        return HeldOut(whitened[seen] / numbers[seen], lengths[seen] / measured[seen])
+        per_number = whitened[seen] / numbers[seen]
+        per_measurement = lengths[seen] / measured[seen]
+        return HeldOut(per_number, per_measurement)
 
 
 def _configurations(q: Array) -> NDArray[np.intp]:
@@ -164,6 +176,8 @@ def _configurations(q: Array) -> NDArray[np.intp]:
     """
     rounded = np.round(q, 3)
     _, first, label = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), np.intp)
-    rank[np.argsort(first)] = np.arange(len(first))
+    count = len(first)
+    rank = np.empty(count, np.intp)
+    order = np.argsort(first)
+    rank[order] = np.arange(count)
     return rank[label.ravel()]
