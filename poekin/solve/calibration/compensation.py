@@ -53,7 +53,8 @@ def compensate(
         )
     q = solution.q
     for _ in range(_ROUNDS):
-        off = true_joints(found, q, conditions) - solution.q
+        reached = true_joints(found, q, conditions)
+        off = reached - solution.q
         q = q - off
         if np.abs(off).max(initial=0.0) <= _SETTLED:
             return Command(q, found.nominal.fk(q))

@@ -258,9 +258,10 @@ def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:
 
 def _inverse_sizes(basis: Array) -> Array:
     """1 / root mean square (k,) of each coefficient's columns of the basis (N, m, k), or 1."""
-    squares = np.sum(basis * basis, axis=(0, 1)) / len(basis)
-    sizes = np.sqrt(squares)
-    return 1.0 / np.where(sizes > 0.0, sizes, 1.0)
+    squares = np.sum(basis * basis, axis=(0, 1))
+    sizes = np.sqrt(squares / len(basis))
+    sizes[sizes == 0.0] = 1.0
+    return 1.0 / sizes
 
 
 def _moved(frame: Array, eta: Array) -> Array:

@@ -131,5 +131,8 @@ def _gain(before: HeldOut | None, after: HeldOut | None) -> tuple[float, float]:
         return math.nan, math.nan
     pairs = before.lengths - after.lengths
     total = before.rms_length + after.rms_length
-    error = float(np.std(pairs, ddof=1) / np.sqrt(len(pairs)))
-    return before.rms_length - after.rms_length, error / max(total, np.finfo(float).tiny)
+    count = len(pairs)
+    error = float(np.std(pairs, ddof=1) / np.sqrt(count))
+    least = np.finfo(float).tiny
+    gain = before.rms_length - after.rms_length
+    return gain, error / max(total, least)

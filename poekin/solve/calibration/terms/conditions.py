@@ -10,6 +10,7 @@ import numpy as np
 from ....checks import alternatives
 from ....errors import InputError, ShapeError, UnknownName, quote, safe_repr
 from ....groups.arrays import Array, numbers
+from ....groups.vectors import normalised
 from ....model.checks import finite
 
 NAMES = ("payload", "gravity", "approach", "previous", "time", "temperature")
@@ -77,7 +78,8 @@ def _changed(
     """The conditions with those that are given in their place."""
     if "previous" in columns:
         moves = q - columns["previous"]
-        signs = np.where(np.abs(moves) > _STILL, np.sign(moves), 0.0)
+        moved = np.abs(moves) > _STILL
+        signs = np.where(moved, np.sign(moves), 0.0)
         found = found._replace(previous=columns["previous"], approach=signs)
     given = {name: columns[name] for name in ("payload", "gravity", "approach") if name in columns}
     source = drift_source(reference)
@@ -130,10 +132,11 @@ def at_rest(q: Array, reference: Reference) -> Conditions:
     """Conditions of readings of which nothing but the reference is known."""
     count = len(q)
     payload = np.full(count, float(reference.get("payload", 0.0)))
-    down = np.asarray(reference.get("gravity", _DOWN), float)
+    mean = reference.get("gravity", _DOWN)
+    down = normalised(np.asarray(mean, float))
     return Conditions(
         payload=payload,
-        gravity=np.tile(down / np.linalg.norm(down), (count, 1)),
+        gravity=np.tile(down, (count, 1)),
         approach=np.zeros_like(q),
         previous=q,
         drift=np.zeros(count),
@@ -149,6 +152,8 @@ def _signs(moves: Array) -> Array:
     """Sign (N, m) of the last move of each coordinate, in this row or before; 0 before the first."""
     moved = np.abs(moves) > _STILL
     rows = np.arange(len(moves))[:, None]
-    last = np.maximum.accumulate(np.where(moved, rows, -1), axis=0)
-    signs = np.take_along_axis(np.sign(moves), np.maximum(last, 0), axis=0)
+    own = np.where(moved, rows, -1)
+    last = np.maximum.accumulate(own, axis=0)
+    chosen = np.maximum(last, 0)
+    signs = np.take_along_axis(np.sign(moves), chosen, axis=0)
     return np.where(last < 0, 0.0, signs)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ....groups.arrays import Array
-from ....groups.vectors import translation_part
+from ....groups.vectors import norms, rotation_part, translation_part
 from ....model.chain import Chain
 from ....model.sampling import half_range
 from ..model.parameters import Parameter, Unit
@@ -14,6 +14,7 @@ from .term import Owners, Term, spread
 
 STANDARD_GRAVITY = 9.80665
 _LAST = 3  # axes that make a wrist
+_MEET = 1e-9  # axes that are nearer to parallel leave the place along them open
 _LEAST = 1e-6  # reaches: a joint whose lever is never longer carries no weight
 
 
@@ -25,7 +26,8 @@ def compliance(chain: Chain, owners: Owners, reference: Reference) -> list[Term]
     """
     home = chain.home
     at_tip = np.zeros(3)
-    at_wrist = home[:3, :3].T @ (wrist(chain) - translation_part(home))
+    from_tip = wrist(chain) - translation_part(home)
+    at_wrist = rotation_part(home).T @ from_tip
     arm = _term(chain, owners, reference, at_wrist, "compliance", "rad/m")
     terms = [arm]
     if "payload" in reference:
@@ -43,7 +45,9 @@ def _term(
 ) -> Term | None:
     half = half_range(chain)
     q = np.random.default_rng(0).uniform(-half, half, (64, chain.dof))
-    longest = np.abs(levers(chain, q, in_order(q, reference).gravity, point)).max(axis=0)
+    gravity = in_order(q, reference).gravity
+    lengths = np.abs(levers(chain, q, gravity, point))
+    longest = lengths.max(axis=0)
     loaded = owners[longest[owners] > _LEAST * chain.reach]
     if not len(loaded):
         return None
@@ -51,7 +55,8 @@ def _term(
     def basis(q: Array, conditions: Conditions) -> Array:
         values = levers(chain, q, conditions.gravity, point)[:, loaded]
         if unit == "rad/(N m)":
-            values = values * (STANDARD_GRAVITY * conditions.payload[:, None])
+            weights = STANDARD_GRAVITY * conditions.payload
+            values = values * weights[:, None]
         return spread(values, loaded, chain.dof)
 
     parameters = (Parameter(chain.q_names[i], what, unit) for i in loaded)
@@ -63,7 +68,8 @@ def levers(chain: Chain, q: Array, gravity: Array, point: Array) -> Array:
     coordinate, m.
     """
     J = chain.jacobian(q, frame="hybrid", at=point)
-    return np.einsum("nk,nki->ni", gravity, J[:, 3:])
+    linear = J[:, 3:]
+    return np.einsum("nk,nki->ni", gravity, linear)
 
 
 def wrist(chain: Chain) -> Array:
@@ -71,11 +77,14 @@ def wrist(chain: Chain) -> Array:
     several are, the one nearest to the tip.
     """
     tip = translation_part(chain.home)
-    turning = np.linalg.norm(chain.screws[:, :3], axis=1) > 0.5
+    turns = norms(chain.screws[:, :3])
+    turning = turns > 0.5
     axes = chain.screws[turning][-_LAST:]
     omega = axes[:, :3]
     moments = np.cross(omega, axes[:, 3:])  # the point of each axis nearest to the base's origin
-    across = np.eye(3) - omega[:, :, None] * omega[:, None, :]
-    off = moments - np.einsum("kij,j->ki", across, tip)
-    shift = np.linalg.lstsq(across.reshape(-1, 3), off.ravel(), rcond=1e-9)[0]
+    along = omega[:, :, None] * omega[:, None, :]
+    across = np.eye(3) - along
+    off = moments - across @ tip
+    rows = across.reshape(-1, 3)
+    shift = np.linalg.lstsq(rows, off.ravel(), rcond=_MEET)[0]
     return tip + shift

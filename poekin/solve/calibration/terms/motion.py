@@ -41,7 +41,8 @@ def drift(chain: Chain, owners: Owners, reference: Reference) -> list[Term]:
     """Term q_i += c t, t the temperature, else the time beyond its mean, else the part of the run."""
 
     def basis(_q: Array, conditions: Conditions) -> Array:
-        t = np.repeat(conditions.drift[:, None], len(owners), axis=1)
+        column = conditions.drift[:, None]
+        t = np.repeat(column, len(owners), axis=1)
         return spread(t, owners, chain.dof)
 
     return _one_each(chain, owners, "drift", basis, rate=drift_source(reference))

@@ -14,7 +14,10 @@ from .term import Owners, Term, spread
 
 def coupling(chain: Chain, owners: Owners, _reference: Reference) -> list[Term]:
     """Term q_i += c q_j of each coordinate and its neighbours j = i - 1 and i + 1."""
-    pairs = [(i, j) for i in owners.tolist() for j in (i - 1, i + 1) if 0 <= j < chain.dof]
+    pairs = []
+    for i in owners.tolist():
+        neighbours = (i - 1, i + 1)
+        pairs += [(i, j) for j in neighbours if 0 <= j < chain.dof]
     if not pairs:
         return []
     to, other = np.array(pairs).T
@@ -51,6 +54,7 @@ def _harmonics(chain: Chain, owners: Owners, order: int, name: str) -> list[Term
 
     def basis(q: Array, _conditions: Conditions) -> Array:
         x = order * q[:, angles]
-        return spread(np.concatenate([np.sin(x), np.cos(x)], axis=1), twice, chain.dof)
+        values = np.concatenate([np.sin(x), np.cos(x)], axis=1)
+        return spread(values, twice, chain.dof)
 
     return [Term(name, tuple(parameters), basis)]

@@ -85,6 +85,7 @@ def name_of(kind: str | Term) -> str:
 
 def spread(values: Array, owners: Owners, dof: int) -> Array:
     """B (N, m, k) in which coefficient j multiplies values[:, j] (N, k) at coordinate owners[j]."""
-    B = np.zeros((len(values), dof, values.shape[1]))
-    B[:, owners, np.arange(values.shape[1])] = values
+    N, k = values.shape
+    B = np.zeros((N, dof, k))
+    B[:, owners, np.arange(k)] = values
     return B
