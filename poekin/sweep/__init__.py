@@ -8,7 +8,7 @@ from .maps.base_placement import BasePlacement, base_placement
 from .maps.branches import branches
 from .maps.reach import reach
 from .maps.sweep_map import SweepMap, load_map
-from .samples import Grid, Random
+from .samples import Grid, Random, Sobol
 from .sweep import Sweep
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "Cells",
     "Grid",
     "Random",
+    "Sobol",
     "Sweep",
     "SweepMap",
     "base_placement",

@@ -27,7 +27,7 @@ class Sweep:
     ----------
     chain : Chain
         The arm.
-    samples : Random or Grid
+    samples : Random, Sobol or Grid
         Its configurations.
     cells : Cells
         Cells of space, and of directions.

@@ -19,7 +19,7 @@ from ...model.chain import Chain
 from ...results import Result
 from ..cells import Cells
 from ..execution.totals import NO_SAMPLE, Totals
-from ..samples import Grid, Random, Samples
+from ..samples import Samples, samples_from
 from ..sweep import Sweep
 
 
@@ -33,7 +33,7 @@ class SweepMap(Result):
         The sweep as plain data.
     cells : Cells
         Where the cells are.
-    samples : Random or Grid
+    samples : Random, Sobol or Grid
         The configurations.
     counts : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray of int
         Number of samples in each cell.
@@ -289,16 +289,8 @@ def load_map(path: str | os.PathLike[str]) -> SweepMap:
             outside = int(file["outside"])
         corner = tuple(about["corner"])
         cells = Cells(corner, about["resolution"], tuple(about["shape"]), about["side"])
-        return SweepMap(about, cells, _samples(about["samples"]), outside=outside, **arrays)
+        return SweepMap(about, cells, samples_from(about["samples"]), outside=outside, **arrays)
     except OSError as error:
         raise FileError(f"{path}: {error.strerror or 'no map of a sweep'}") from error
     except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
         raise FileError(f"{path}: no map of a sweep, as SweepMap.save writes it") from error
-
-
-def _samples(about: dict[str, Any]) -> Samples:
-    lower, upper = np.array([about["lower"], about["upper"]])
-    if "random" in about:
-        return Random(lower, upper, about["random"], about["seed"])
-    counts = tuple(about["grid"])
-    return Grid(lower, upper, math.prod(counts), counts)
