@@ -8,6 +8,9 @@ from .maps.base_placement import BasePlacement, base_placement
 from .maps.branches import branches
 from .maps.reach import reach
 from .maps.sweep_map import SweepMap, load_map
+from .measures.dexterity import InverseCondition, SmallestSingularValue
+from .measures.joints import JointTravel, LimitMargin
+from .measures.pose_uncertainty import PoseUncertainty
 from .samples import Grid, Random, Sobol
 from .sweep import Sweep
 
@@ -15,7 +18,12 @@ __all__ = [
     "BasePlacement",
     "Cells",
     "Grid",
+    "InverseCondition",
+    "JointTravel",
+    "LimitMargin",
+    "PoseUncertainty",
     "Random",
+    "SmallestSingularValue",
     "Sobol",
     "Sweep",
     "SweepMap",

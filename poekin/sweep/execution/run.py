@@ -85,6 +85,29 @@ def run(
     FileError
         If the store cannot be read or written; parts that were done are kept.
     """
+    totals = run_totals(
+        sweep,
+        chunk=chunk,
+        workers=workers,
+        executor=executor,
+        store=store,
+        resume=resume,
+        progress=progress,
+    )
+    return map_of(sweep, totals)
+
+
+def run_totals(
+    sweep: Sweep,
+    *,
+    chunk: int = CHUNK,
+    workers: int | None = None,
+    executor: Executor | None = None,
+    store: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    progress: Progress | None = None,
+) -> Totals:
+    """Totals of a sweep, its options those of `run`. Raises: InputError, FileError."""
     whole(chunk, "chunk", 1)
     if workers is not None:
         whole(workers, "workers", 1)
@@ -97,11 +120,11 @@ def run(
     tell = _Teller(progress, sweep.samples.count)
     if executor is not None:
         most = 2 * (workers or _GIVEN)
-        return map_of(sweep, _summed(sweep, ranges, executor, kept, tell, most))
+        return _summed(sweep, ranges, executor, kept, tell, most)
     with ThreadPoolExecutor(threads, thread_name_prefix="poekin") as own:
         if kept is None:
-            return map_of(sweep, _shared(sweep, ranges, own, threads, tell))
-        return map_of(sweep, _summed(sweep, ranges, own, kept, tell, 2 * threads))
+            return _shared(sweep, ranges, own, threads, tell)
+        return _summed(sweep, ranges, own, kept, tell, 2 * threads)
 
 
 def _ranges(count: int, chunk: int) -> Iterator[Range]:
@@ -145,10 +168,10 @@ def _shared(
             yield one
 
     def work() -> Totals:
-        totals = Totals(sweep.cells, sweep.is_measured)
+        totals = Totals(sweep)
         try:
             for one in taken():
-                totals.run(sweep, one.first, one.last)
+                totals.run(one.first, one.last)
                 tell.add(one)
         finally:  # nothing is left, or this one failed: the others need not go on
             ended.set()
@@ -173,7 +196,7 @@ def _summed(
     most: int,
 ) -> Totals:
     """The sum of all parts, with no more of them waited for at a time than `most`."""
-    totals = Totals(sweep.cells, sweep.is_measured)
+    totals = Totals(sweep)
     waiting: list[tuple[Range, Any]] = []
 
     def take() -> None:

@@ -19,6 +19,7 @@ from ...model.chain import Chain
 from ...results import Result
 from ..cells import Cells
 from ..execution.totals import NO_SAMPLE, Totals
+from ..measures.names import LABELS
 from ..samples import Samples, samples_from
 from ..sweep import Sweep
 
@@ -40,10 +41,10 @@ class SweepMap(Result):
     outside : int
         Number of samples in none of them.
     best : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray or None
-        Best measure in each cell, in SI units (rad, m), NaN in an empty one; None of a sweep that
-        only counts.
+        Measure that is kept of each cell, the best, the worst or the mean as about["keep"] says, in
+        SI units (rad, m), NaN in an empty one; None of a sweep that only counts.
     attained : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray of int or None
-        Number of the first sample with that measure, -1 in an empty cell.
+        Number of the first sample with that measure, -1 in an empty cell; None of means too.
     chain : Chain or None
         The arm; None of a map that was read from a file.
     """
@@ -119,7 +120,10 @@ class SweepMap(Result):
                 f"{100 * most:.3g} % in the best"
             )
         if self.best is not None and self.reached.any():
-            lines.append(f"manipulability up to {np.nanmax(self.best):.4g}")
+            label = LABELS[self.about["measure"]]
+            least = label.value(float(np.nanmin(self.best)))
+            most = label.value(float(np.nanmax(self.best)))
+            lines.append(f"{self.about['keep']} {label.words} of a cell: {least} to {most}")
         lines.append(
             f"a further configuration would fall into an empty cell with a chance of {100 * self.new_cell_chance:.2g} %"
         )
@@ -186,7 +190,7 @@ class SweepMap(Result):
         return np.take(self.counts, number, axis=along)
 
     def configurations(self, cells: Any = ...) -> Array:
-        """The configurations with the best measure.
+        """The configurations with the best, or the worst, measure.
 
         Parameters
         ----------
@@ -201,10 +205,12 @@ class SweepMap(Result):
         Raises
         ------
         InputError
-            If the sweep has no measure.
+            If the sweep has no measure, or means.
         """
         if self.attained is None:
-            raise InputError("configurations: the sweep only counts (measure='reach')")
+            raise InputError(
+                "configurations: the sweep only counts (measure='reach'), or keeps means"
+            )
         numbers = np.asarray(self.attained[cells])
         known = numbers != NO_SAMPLE
         q = np.full((*numbers.shape, len(self.samples.lower)), np.nan)
@@ -231,8 +237,8 @@ class SweepMap(Result):
             "counts": self.counts,
             "outside": self.outside,
         }
-        if self.best is not None:
-            arrays |= {"best": self.best, "attained": self.attained}
+        kept = {"best": self.best, "attained": self.attained}
+        arrays |= {name: values for name, values in kept.items() if values is not None}
         try:
             with place.open("wb") as written:
                 np.savez_compressed(written, **arrays)
@@ -244,17 +250,20 @@ class SweepMap(Result):
 
 def map_of(sweep: Sweep, totals: Totals) -> SweepMap:
     """The map of what a sweep has added up."""
-    shape = sweep.cells.array_shape
+    cells = sweep.cells
+    if not isinstance(cells, Cells):
+        raise InputError(f"map: expected a sweep of Cells, got {type(cells).__name__}")
+    shape = cells.array_shape
     best = None
     attained = None
-    if sweep.is_measured:
+    if totals.rule == "sum":
+        best = np.where(totals.counts > 0, totals.means(), np.nan).reshape(shape)
+    elif totals.rule == "extreme":
         attained = totals.attained.reshape(shape)
-        # squares were compared; rounding may make one of 0 negative
-        squares = np.maximum(totals.best.reshape(shape), 0.0)
-        best = np.sqrt(np.where(attained == NO_SAMPLE, np.nan, squares))
+        best = np.where(attained == NO_SAMPLE, np.nan, sweep.sign * totals.best.reshape(shape))
     return SweepMap(
         sweep.describe(),
-        sweep.cells,
+        cells,
         sweep.samples,
         totals.counts.reshape(shape),
         totals.outside,

@@ -138,7 +138,7 @@ def test_parts_add_up_to_the_same_in_any_order(cuts, order):
     ends = [0, *sorted(cuts), 3000]
     parts = [part_of(small, a, b) for a, b in pairwise(ends)]
     order.shuffle(parts)
-    totals = Totals(CELLS, True)
+    totals = Totals(small)
     for part in parts:
         totals.add(part)
     expected = run(small, workers=1)
