@@ -10,6 +10,7 @@ from .maps.reach import reach
 from .maps.sweep_map import SweepMap, load_map
 from .measures.dexterity import InverseCondition, SmallestSingularValue
 from .measures.joints import JointTravel, LimitMargin
+from .measures.monte_carlo import DrawnErrors, monte_carlo
 from .measures.pose_uncertainty import PoseUncertainty
 from .samples import Grid, Random, Sobol
 from .sweep import Sweep
@@ -17,6 +18,7 @@ from .sweep import Sweep
 __all__ = [
     "BasePlacement",
     "Cells",
+    "DrawnErrors",
     "Grid",
     "InverseCondition",
     "JointTravel",
@@ -30,6 +32,7 @@ __all__ = [
     "base_placement",
     "branches",
     "load_map",
+    "monte_carlo",
     "reach",
     "run",
 ]
