@@ -6,8 +6,10 @@ from .cells import Cells
 from .execution.run import run
 from .maps.base_placement import BasePlacement, base_placement
 from .maps.branches import branches
+from .maps.histogram import MeasureHistogram, histogram
 from .maps.reach import reach
 from .maps.sweep_map import SweepMap, load_map
+from .maps.top import TopSamples, top
 from .measures.dexterity import InverseCondition, SmallestSingularValue
 from .measures.joints import JointTravel, LimitMargin
 from .measures.monte_carlo import DrawnErrors, monte_carlo
@@ -23,16 +25,20 @@ __all__ = [
     "InverseCondition",
     "JointTravel",
     "LimitMargin",
+    "MeasureHistogram",
     "PoseUncertainty",
     "Random",
     "SmallestSingularValue",
     "Sobol",
     "Sweep",
     "SweepMap",
+    "TopSamples",
     "base_placement",
     "branches",
+    "histogram",
     "load_map",
     "monte_carlo",
     "reach",
     "run",
+    "top",
 ]

@@ -25,10 +25,6 @@ class Bins:
         """Place of the bins, for the kernel."""
         return np.array([self.lower, 0.0, 0.0, self.count / (self.upper - self.lower)])
 
-    def edges(self) -> Array:
-        """Borders of the bins (count + 1,)."""
-        return np.linspace(self.lower, self.upper, self.count + 1)
-
     def describe(self) -> dict[str, object]:
         """Plain data of the bins."""
         return {"lower": self.lower, "upper": self.upper, "bins": self.count}

@@ -6,7 +6,7 @@ import os
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypedDict, Unpack
 
 from ...checks import whole
 from ...engine.jit.threads import processors
@@ -31,6 +31,17 @@ class Executor(Protocol):
         """A future of function(*arguments): its `result()` waits for it, `done()` does not, and
         `cancel()` gives it up.
         """
+
+
+class RunOptions(TypedDict, total=False):
+    """Options of `run`."""
+
+    chunk: int
+    workers: int | None
+    executor: Executor | None
+    store: str | os.PathLike[str] | None
+    resume: bool
+    progress: Progress | None
 
 
 class Range(NamedTuple):
@@ -97,17 +108,12 @@ def run(
     return map_of(sweep, totals)
 
 
-def run_totals(
-    sweep: Sweep,
-    *,
-    chunk: int = CHUNK,
-    workers: int | None = None,
-    executor: Executor | None = None,
-    store: str | os.PathLike[str] | None = None,
-    resume: bool = False,
-    progress: Progress | None = None,
-) -> Totals:
+def run_totals(sweep: Sweep, **options: Unpack[RunOptions]) -> Totals:
     """Totals of a sweep, its options those of `run`. Raises: InputError, FileError."""
+    chunk = options.get("chunk", CHUNK)
+    workers = options.get("workers")
+    executor = options.get("executor")
+    store = options.get("store")
     whole(chunk, "chunk", 1)
     if workers is not None:
         whole(workers, "workers", 1)
@@ -115,9 +121,9 @@ def run_totals(
         raise InputError(f"executor: expected an object with submit, got {type(executor).__name__}")
     threads = workers or processors()
     _check_memory(sweep, threads + 1)
-    kept = None if store is None else Store(store, sweep, chunk, resume)
+    kept = None if store is None else Store(store, sweep, chunk, options.get("resume", False))
     ranges = _ranges(sweep.samples.count, chunk)
-    tell = _Teller(progress, sweep.samples.count)
+    tell = _Teller(options.get("progress"), sweep.samples.count)
     if executor is not None:
         most = 2 * (workers or _GIVEN)
         return _summed(sweep, ranges, executor, kept, tell, most)
