@@ -121,9 +121,8 @@ class SweepMap(Result):
             )
         if self.best is not None and self.reached.any():
             label = LABELS[self.about["measure"]]
-            least = label.value(float(np.nanmin(self.best)))
-            most = label.value(float(np.nanmax(self.best)))
-            lines.append(f"{self.about['keep']} {label.words} of a cell: {least} to {most}")
+            ends = label.between(float(np.nanmin(self.best)), float(np.nanmax(self.best)))
+            lines.append(f"{self.about['keep']} {label.words} of a cell: {ends}")
         lines.append(
             f"a further configuration would fall into an empty cell with a chance of {100 * self.new_cell_chance:.2g} %"
         )

@@ -52,10 +52,10 @@ class TopSamples(Result):
             Line such as "10 best of 1000000 configurations: manipulability 0.12 to 0.11".
         """
         label = LABELS[self.about["measure"]]
-        first, last = (label.value(float(self.values[k])) for k in (0, -1))
+        ends = label.between(float(self.values[0]), float(self.values[-1]))
         return (
             f"{len(self.values)} {self.about['keep']} of {self.about['count']} configurations: "
-            f"{label.words} {first} to {last}"
+            f"{label.words} {ends}"
         )
 
 

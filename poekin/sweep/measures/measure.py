@@ -30,6 +30,10 @@ class MeasureLabel(NamedTuple):
         """A value with its unit."""
         return f"{self.per_si * x:.4g} {self.unit}".rstrip()
 
+    def between(self, a: float, b: float) -> str:
+        """Two values, from one to the other, with their unit."""
+        return f"{self.per_si * a:.4g} to {self.value(b)}"
+
 
 @dataclass(frozen=True)
 class Measure:

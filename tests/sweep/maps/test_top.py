@@ -68,7 +68,7 @@ def test_fewer_samples_are_all_in_the_list():
     found = top(two_links(), "travel", 10, samples=3)
     assert sorted(found.numbers) == [0, 1, 2]
     assert found.summary() == (
-        f"3 best of 3 configurations: joint travel {found.values[0]:.4g} rad or m to "
+        f"3 best of 3 configurations: joint travel {found.values[0]:.4g} to "
         f"{found.values[-1]:.4g} rad or m"
     )
 
