@@ -91,6 +91,10 @@ EQUATIONS: dict[str, str] = {
     "poekin.formulas.lie.coefficients": _LEFT_INVERSE,
     "poekin.formulas.kinematics.forward": _LOCAL,
     "poekin.formulas.kinematics.gram": r"\det(J J^T) = \prod_i \sigma_i^2",
+    "poekin.formulas.kinematics.singular_values": (
+        r"\tan 2\theta = \frac{2\,x^T y}{y^T y - x^T x}, \quad \sigma_i = \|x_i\|"
+    ),
+    "poekin.formulas.kinematics.joint_ranges": r"1 - \max_i |q_i - c_i|\,w_i",
     "poekin.formulas.kinematics.columns": r"V_h = \begin{bmatrix} I & 0 \\ -[p] & I \end{bmatrix} V_s",
     "poekin.formulas.paper.direct": _COLUMN,
     "poekin.formulas.kinematics.recursive": (

@@ -263,6 +263,8 @@ BESIDE = {
     "ik.rounding": "comparisons of the closed forms that know a scalar's rounding",
     "inverse.damped_step": "inverse kinematics is none of the paper's subjects",
     "inverse.least_squares": "inverse kinematics is none of the paper's subjects",
+    "kinematics.joint_ranges": "how far a configuration is from limits and from another one",
+    "kinematics.singular_values": "how well the tool can be moved in its worst direction",
     "kinematics.gram": "how well the tool can be moved; the paper takes Jacobians as they are",
     "ik.elimination.circle_roots": "all real roots of a trigonometric polynomial of degree 8",
     "ik.elimination.joints": "the other five angles of a loop of six revolute joints, of one",

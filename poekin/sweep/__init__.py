@@ -6,21 +6,39 @@ from .cells import Cells
 from .execution.run import run
 from .maps.base_placement import BasePlacement, base_placement
 from .maps.branches import branches
+from .maps.histogram import MeasureHistogram, histogram
 from .maps.reach import reach
 from .maps.sweep_map import SweepMap, load_map
-from .samples import Grid, Random
+from .maps.top import TopSamples, top
+from .measures.dexterity import InverseCondition, SmallestSingularValue
+from .measures.joints import JointTravel, LimitMargin
+from .measures.monte_carlo import DrawnErrors, monte_carlo
+from .measures.pose_uncertainty import PoseUncertainty
+from .samples import Grid, Random, Sobol
 from .sweep import Sweep
 
 __all__ = [
     "BasePlacement",
     "Cells",
+    "DrawnErrors",
     "Grid",
+    "InverseCondition",
+    "JointTravel",
+    "LimitMargin",
+    "MeasureHistogram",
+    "PoseUncertainty",
     "Random",
+    "SmallestSingularValue",
+    "Sobol",
     "Sweep",
     "SweepMap",
+    "TopSamples",
     "base_placement",
     "branches",
+    "histogram",
     "load_map",
+    "monte_carlo",
     "reach",
     "run",
+    "top",
 ]

@@ -121,6 +121,21 @@ class Cells:
         """
         return np.array([*self.corner, 1.0 / self.resolution])
 
+    def describe(self) -> dict[str, object]:
+        """Plain data from which the same cells are made again.
+
+        Returns
+        -------
+        document : dict
+            Corner, resolution, shape and side.
+        """
+        return {
+            "corner": list(self.corner),
+            "resolution": self.resolution,
+            "shape": list(self.shape),
+            "side": self.side,
+        }
+
     def centres(self) -> Array:
         """Centres of the cubes.
 

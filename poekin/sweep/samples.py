@@ -1,4 +1,4 @@
-"""Samples of a sweep: configurations by number, drawn at random or on a grid."""
+"""Samples of a sweep: configurations by number, drawn at random, by Sobol's sequence or on a grid."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.readings.coupled import beyond_own_limits
 from ..model.sampling import sampling_range
+from .direction_numbers import MOST, sobol_numbers
 
 _TRIED = 4096
 _ASKED = 2**62 // 64  # numbers of samples times coordinates are 64-bit numbers too
@@ -143,6 +144,79 @@ class Random(Samples):
 
 
 @dataclass(frozen=True, eq=False)
+class Sobol(Samples):
+    """Configurations of Sobol's sequence: more even between the bounds than random ones.
+
+    Attributes
+    ----------
+    lower, upper : (m,) ndarray
+        Bounds of the coordinates, rad or m.
+    count : int
+        Number of samples; a power of 2 is most even.
+    seed : int or None
+        Seed of the scrambling, the same on every machine; None leaves the sequence as it is, whose
+        first configuration is at all lower bounds.
+    """
+
+    kind = 2
+
+    seed: int | None = 0
+
+    @classmethod
+    def of(cls, chain: Chain, count: int, seed: int | None = 0) -> Sobol:
+        """Samples within a chain's limits.
+
+        Parameters
+        ----------
+        chain : Chain
+            The arm, of at most 32 coordinates; one without limits is drawn from one turn, or from
+            2 m.
+        count : int
+            Number of samples.
+        seed : int or None, default 0
+            Seed of the scrambling, None for none.
+
+        Returns
+        -------
+        samples : Sobol
+            The samples.
+
+        Raises
+        ------
+        InputError
+            If a number cannot be used, the arm has no coordinate or more than 32, or coordinates
+            within their limits take joints beyond their own.
+
+        Notes
+        -----
+        The scrambling is a random matrix of bits and a shift for each coordinate. Sources: Sobol
+        1967; Joe and Kuo 2008 (direction numbers); Matoušek 1998.
+
+        Examples
+        --------
+        >>> import poekin as pk
+        >>> arm = pk.load("ur5e").chain(tip="tool0")
+        >>> samples = pk.sweep.Sobol.of(arm, 2**20)
+        >>> samples.configurations([0, 1]).shape
+        (2, 6)
+        """
+        whole(count, "count", 1, _ASKED)
+        if seed is not None:
+            whole(seed, "seed", 0, KERNEL_INT)
+        if chain.dof > MOST:
+            raise InputError(f"sobol: expected at most {MOST} coordinates, got {chain.dof}")
+        return cls(*_range_of(chain), count, seed)
+
+    def numbers(self) -> np.ndarray:
+        """Whole numbers of the kernel."""
+        return np.append(self.kind, sobol_numbers(len(self.lower), self.seed))
+
+    def describe(self) -> dict[str, object]:
+        """Plain data of the samples."""
+        return {"sobol": self.count, "seed": self.seed} | _bounds(self)
+
+
+@dataclass(frozen=True, eq=False)
 class Grid(Samples):
     """Configurations in the middles of equal parts of each coordinate's range.
 
@@ -198,6 +272,17 @@ class Grid(Samples):
     def describe(self) -> dict[str, object]:
         """Plain data of the samples."""
         return {"grid": list(self.counts)} | _bounds(self)
+
+
+def samples_from(document: dict[str, Any]) -> Samples:
+    """The samples that `describe` has described."""
+    lower, upper = np.array([document["lower"], document["upper"]])
+    if "random" in document:
+        return Random(lower, upper, document["random"], document["seed"])
+    if "sobol" in document:
+        return Sobol(lower, upper, document["sobol"], document["seed"])
+    counts = tuple(document["grid"])
+    return Grid(lower, upper, math.prod(counts), counts)
 
 
 def _bounds(samples: Samples) -> dict[str, object]:

@@ -13,10 +13,14 @@ from ..checks import choice
 from ..engine.jit import source_hash
 from ..errors import InputError
 from ..model.chain import Chain
+from .bins import Bins, TopList
 from .cells import Cells
+from .measures.measure import Measure, Reach
+from .measures.names import MeasureName, measure_of
 from .samples import Samples
 
-Measure = Literal["reach", "manipulability"]
+Keep = Literal["best", "worst", "mean"]
+KeepRule = Literal["count", "extreme", "sum", "top"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,36 +31,63 @@ class Sweep:
     ----------
     chain : Chain
         The arm.
-    samples : Random or Grid
+    samples : Random, Sobol or Grid
         Its configurations.
     cells : Cells
         Cells of space, and of directions.
-    measure : {"reach", "manipulability"}
-        Whether cells only count, or keep Yoshikawa's manipulability of the pose, sqrt(det J Jᵀ),
-        too.
+    measure : Measure or str
+        What is kept of each cell: "reach" for nothing but counts, "manipulability",
+        "inverse_condition", "smallest_singular_value", "limit_margin", "travel", or a measure with
+        parameters, such as `PoseUncertainty`.
+    keep : {"best", "worst", "mean"}
+        Whether the best or the worst measure of a cell is kept, with its first sample, or the mean.
 
     Raises
     ------
     InputError
-        If there is no such measure, or the samples have another number of coordinates.
+        If there is no such measure, the arm has it not, or the samples have another number of
+        coordinates.
     """
 
     chain: Chain
     samples: Samples
-    cells: Cells
-    measure: Measure = "reach"
+    cells: Cells | Bins | TopList
+    measure: Measure | MeasureName = "reach"
+    keep: Keep = "best"
 
     def __post_init__(self) -> None:
-        choice(self.measure, get_args(Measure), "measure")
+        choice(self.keep, get_args(Keep), "keep")
+        self.measured.check(self.chain)
+        if not self.is_measured and not isinstance(self.cells, Cells):
+            raise InputError("measure: expected a measure to keep, got 'reach'")
         if len(self.samples.lower) != self.chain.dof:
             raise InputError(
                 f"sweep: {self.chain!r} has {self.chain.dof} coordinates, its samples {len(self.samples.lower)}"
             )
 
     @property
+    def measured(self) -> Measure:
+        """The measure itself."""
+        return measure_of(self.measure)
+
+    @property
     def is_measured(self) -> bool:
         """Whether cells keep a measure."""
-        return self.measure != "reach"
+        return not isinstance(self.measured, Reach)
+
+    @property
+    def rule(self) -> KeepRule:
+        """Rule by which measures are kept and added up."""
+        if isinstance(self.cells, TopList):
+            return "top"
+        if not self.is_measured:
+            return "count"
+        return "sum" if self.keep == "mean" else "extreme"
+
+    @property
+    def sign(self) -> int:
+        """1 where the largest measure is kept, -1 where the smallest."""
+        return -self.measured.sign if self.keep == "worst" else self.measured.sign
 
     def describe(self) -> dict[str, object]:
         """Plain data of all that the result depends on but the arm.
@@ -66,18 +97,15 @@ class Sweep:
         document : dict
             Names, numbers and lists of numbers, in SI units.
         """
-        cells = self.cells
         return {
             "base": self.chain.base,
             "tip": self.chain.tip,
             "q_names": list(self.chain.q_names),
-            "measure": self.measure,
+            "measure": self.measured.name,
+            "parameters": self.measured.describe(),
+            "keep": self.keep,
             "samples": self.samples.describe(),
-            "corner": list(cells.corner),
-            "resolution": cells.resolution,
-            "shape": list(cells.shape),
-            "side": cells.side,
-        }
+        } | self.cells.describe()
 
     def key(self) -> str:
         """SHA-256 of the sweep, its arm and the formulas that run: equal keys have equal results.

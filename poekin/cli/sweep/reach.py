@@ -6,11 +6,17 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 from typer import Exit, Option
 
 from ...errors import InputError
+from ...model.chain import Chain
+from ...model.sampling import angle_mask
 from ...sweep.maps import map_files
 from ...sweep.maps.reach import reach
+from ...sweep.measures.measure import Measure
+from ...sweep.measures.names import measure_of
+from ...sweep.measures.pose_uncertainty import ErrorPart, PoseUncertainty
 from .. import array_files
 from ..kinematics.arm import Base, File, Json, Seed, Tip
 from ..model import model
@@ -23,6 +29,20 @@ class MeasureName(StrEnum):
 
     reach = "reach"
     manipulability = "manipulability"
+    inverse_condition = "inverse_condition"
+    smallest_singular_value = "smallest_singular_value"
+    limit_margin = "limit_margin"
+    travel = "travel"
+    position_error = "position_error"
+    orientation_error = "orientation_error"
+
+
+class KeepName(StrEnum):
+    """Which measure of a cell a map keeps."""
+
+    best = "best"
+    worst = "worst"
+    mean = "mean"
 
 
 Samples = Annotated[
@@ -39,6 +59,25 @@ Side = Annotated[
     ),
 ]
 Measured = Annotated[MeasureName, Option("--measure", help="What is kept of each cell.")]
+Kept = Annotated[
+    KeepName, Option("--keep", help="Keep the best, the worst or the mean measure of a cell.")
+]
+SigmaAngle = Annotated[
+    float | None,
+    Option(
+        "--sigma-angle",
+        min=0,
+        help="Of the errors: standard deviation of each axis's tilts and each coordinate's offset, rad.",
+    ),
+]
+SigmaLength = Annotated[
+    float | None,
+    Option(
+        "--sigma-length",
+        min=0,
+        help="Of the errors: standard deviation of each axis's shifts, m.",
+    ),
+]
 MapFile = Annotated[
     Path | None,
     Option("--output", help="Where the map goes: a .npz file, or a .zarr directory (extra sweep)."),
@@ -63,6 +102,9 @@ def command(
     resolution: Resolution = 0.05,
     side: Side = 0,
     measure: Measured = MeasureName.reach,
+    keep: Kept = KeepName.best,
+    sigma_angle: SigmaAngle = None,
+    sigma_length: SigmaLength = None,
     seed: Seed = 0,
     tip: Tip = None,
     base: Base = None,
@@ -90,7 +132,8 @@ def command(
             resolution=resolution,
             samples=_count(samples),
             side=side,
-            measure=measure.value,
+            measure=_measure(measure, chain, sigma_angle, sigma_length),
+            keep=keep.value,
             seed=seed,
             workers=workers,
             executor=runs,
@@ -107,6 +150,25 @@ def command(
         if output is not None:
             say(f"\nthe map: {path_text(output)}")
     raise Exit(0)
+
+
+def _measure(name: MeasureName, chain: Chain, angle: float | None, length: float | None) -> Measure:
+    """The measure of a name. Raises: InputError where its errors are not given, or not asked for."""
+    is_error = name in (MeasureName.position_error, MeasureName.orientation_error)
+    is_given = angle is not None or length is not None
+    if is_error != is_given:
+        raise InputError(
+            "--sigma-angle, --sigma-length: expected, one or both, with --measure position_error or "
+            "orientation_error, and with no other"
+        )
+    if not is_error:
+        return measure_of(name.value)  # type: ignore[arg-type]  # its names are some of those
+    part: ErrorPart = "position" if name is MeasureName.position_error else "orientation"
+    # a coordinate that slides is off by a length
+    offset = np.where(angle_mask(chain), angle or 0.0, length or 0.0)
+    return PoseUncertainty.by_tolerances(
+        chain, tilt=angle or 0.0, shift=length or 0.0, offset=offset, part=part
+    )
 
 
 def _count(text: str) -> int:

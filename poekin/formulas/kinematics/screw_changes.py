@@ -23,6 +23,7 @@ from ...algebra import (
     column,
     compose,
     cross,
+    dot,
     linear,
     pose,
     store_row,
@@ -122,3 +123,30 @@ def hybrid_changes(J, P, D, count, C):
 def _store_change(C, k, i, e, V):
     for r in range(6):
         C[r][k][i][e] = V[r]
+
+
+def source_twist(D, p, source, count):
+    """Rotation and displacement (dω; dp) of the tool by a source (count + 1, 6): its origin p in the
+    base, D the derivatives of `pose_changes`.
+
+    Accuracy: that of D, times the sum of the source's entries.
+    """
+    total = [0.0] * 6
+    for r in range(6):
+        for i in range(count + 1):
+            for e in range(6):
+                total[r] = total[r] + D[r][i][e] * source[i][e]
+    V = (total[0], total[1], total[2], total[3], total[4], total[5])
+    return at_point(V, p)
+
+
+def squared_rotation(V):
+    """|dω|², rad²."""
+    w = angular(V)
+    return dot(w, w)
+
+
+def squared_displacement(V):
+    """|dp|², m²."""
+    v = linear(V)
+    return dot(v, v)

@@ -7,7 +7,7 @@ import pickle
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypedDict, Unpack
 
 from ...checks import whole
 from ...engine.jit.threads import processors
@@ -32,6 +32,17 @@ class Executor(Protocol):
         """A future of function(*arguments): its `result()` waits for it, `done()` does not, and
         `cancel()` gives it up.
         """
+
+
+class RunOptions(TypedDict, total=False):
+    """Options of `run`."""
+
+    chunk: int | None
+    workers: int | None
+    executor: Executor | None
+    store: str | os.PathLike[str] | None
+    resume: bool
+    progress: Progress | None
 
 
 class Range(NamedTuple):
@@ -87,8 +98,26 @@ def run(
     FileError
         If the store cannot be read or written; parts that were done are kept.
     """
+    totals = run_totals(
+        sweep,
+        chunk=chunk,
+        workers=workers,
+        executor=executor,
+        store=store,
+        resume=resume,
+        progress=progress,
+    )
+    return map_of(sweep, totals)
+
+
+def run_totals(sweep: Sweep, **options: Unpack[RunOptions]) -> Totals:
+    """Totals of a sweep, its options those of `run`. Raises: InputError, FileError."""
+    chunk = options.get("chunk")
     if chunk is None:
         chunk = max(_CHUNK, _OF_CELL * sweep.cells.count)
+    workers = options.get("workers")
+    executor = options.get("executor")
+    store = options.get("store")
     whole(chunk, "chunk", 1)
     if workers is not None:
         whole(workers, "workers", 1)
@@ -96,16 +125,16 @@ def run(
         raise InputError(f"executor: expected an object with submit, got {type(executor).__name__}")
     threads = workers or processors()
     _check_memory(sweep, threads + 1)
-    kept = None if store is None else Store(store, sweep, chunk, resume)
+    kept = None if store is None else Store(store, sweep, chunk, options.get("resume", False))
     ranges = _ranges(sweep.samples.count, chunk)
-    tell = _Teller(progress, sweep.samples.count)
+    tell = _Teller(options.get("progress"), sweep.samples.count)
     if executor is not None:
         most = 2 * (workers or _GIVEN)
-        return map_of(sweep, _summed(sweep, ranges, executor, kept, tell, most))
+        return _summed(sweep, ranges, executor, kept, tell, most)
     with ThreadPoolExecutor(threads, thread_name_prefix="poekin") as own:
         if kept is None:
-            return map_of(sweep, _shared(sweep, ranges, own, threads, tell))
-        return map_of(sweep, _summed(sweep, ranges, own, kept, tell, 2 * threads))
+            return _shared(sweep, ranges, own, threads, tell)
+        return _summed(sweep, ranges, own, kept, tell, 2 * threads)
 
 
 def _ranges(count: int, chunk: int) -> Iterator[Range]:
@@ -149,10 +178,10 @@ def _shared(
             yield one
 
     def work() -> Totals:
-        totals = Totals(sweep.cells, sweep.is_measured)
+        totals = Totals(sweep)
         try:
             for one in taken():
-                totals.run(sweep, one.first, one.last)
+                totals.run(one.first, one.last)
                 tell.add(one)
         finally:  # nothing is left, or this one failed: the others need not go on
             ended.set()
@@ -177,7 +206,7 @@ def _summed(
     most: int,
 ) -> Totals:
     """The sum of all parts, with no more of them waited for at a time than `most`."""
-    totals = Totals(sweep.cells, sweep.is_measured)
+    totals = Totals(sweep)
     pickled = pickle.dumps(sweep)
     waiting: list[tuple[Range, Any]] = []
 

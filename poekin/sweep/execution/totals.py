@@ -9,66 +9,97 @@ from typing import NamedTuple
 import numpy as np
 
 from ...groups.arrays import Array
-from ..cells import Cells
-from ..sweep import Sweep
+from ..bins import TopList
+from ..sweep import KeepRule, Sweep
 from .fused import fused
 
 NO_MEASURE = -np.inf
 NO_SAMPLE = -1
+_AT_ONCE = 2**30  # samples that the kernel adds to a sum at once
+_HALF = 32  # bits of a sum's lower half
+_FINE = 2.0**-40  # unit of a sum
+_NONE = np.empty(0)
+_NO_SUMS = np.empty(0, np.int64)
 
 
 class SweepPart(NamedTuple):
-    """Cells (K,) that a range of samples fell into, how many each, and the best measure and its first
-    sample; `outside` fell into none.
+    """Cells (K,) that a range of samples fell into, how many each, and what is kept of the measure,
+    two arrays as in `Totals`; `outside` fell into none.
     """
 
     cells: np.ndarray | slice
     counts: np.ndarray
-    best: Array
+    best: np.ndarray
     attained: np.ndarray
     outside: int
 
 
 class Totals:
-    """Counts, best measures and their samples of all cells, and how many samples fell into none."""
+    """Counts of all cells, how many samples fell into none, and what is kept of the measure.
 
-    def __init__(self, cells: Cells, is_measured: bool) -> None:
-        measured = cells.count if is_measured else 0
-        self.counts = np.zeros(cells.count, np.int64)
-        self.best = np.full(measured, NO_MEASURE)
-        self.attained = np.full(measured, NO_SAMPLE, np.int64)
+    Measures have the sign that makes what is kept the largest. By the sweep's `rule`:
+
+    - "extreme": `best` of each cell, and the first sample that has `attained` it
+    - "sum": `best` and `attained` are the upper and lower halves of whole numbers of 2^-40
+    - "top": `best` in descending order, and the samples that have `attained` them
+    """
+
+    def __init__(self, sweep: Sweep) -> None:
+        self.sweep = sweep
+        self.rule: KeepRule = sweep.rule
+        count = sweep.cells.count
+        self.counts = np.zeros(count, np.int64)
         self.outside = 0
+        size = 0 if self.rule == "count" else count
+        if isinstance(sweep.cells, TopList):
+            size = sweep.cells.length
+        self.best: np.ndarray = np.full(size, NO_MEASURE)
+        self.attained = np.full(size, NO_SAMPLE, np.int64)
+        if self.rule == "sum":
+            self.best = np.zeros(size, np.int64)
+            self.attained = np.zeros(size, np.int64)
 
-    def run(self, sweep: Sweep, first: int, last: int) -> None:
+    def run(self, first: int, last: int) -> None:
         """Adds samples first ... last - 1."""
         from ...engine.kernels.sweep import sweep_kernel  # which imports Numba
 
+        sweep = self.sweep
         samples = sweep.samples
         cells = sweep.cells
-        # the code is held until the call is over
-        code = fused(sweep.chain, sweep.measure)
-        self.outside += sweep_kernel.swept.call(
-            code.address,
-            first,
-            last,
-            samples.numbers(),
-            samples.bounds,
-            cells.numbers(),
-            cells.place(),
-            self.counts,
-            self.best,
-            self.attained,
-        )
+        measure = sweep.measured
+        is_sum = self.rule == "sum"
+        # the code is held until the calls are over
+        code = fused(sweep.chain, measure)
+        for start in range(first, last, _AT_ONCE):
+            self.outside += sweep_kernel.swept.call(
+                code.address,
+                start,
+                min(start + _AT_ONCE, last),
+                samples.numbers(),
+                samples.bounds,
+                cells.numbers(),
+                cells.place(),
+                measure.whole_numbers(sweep.chain, sweep.sign),
+                measure.numbers(sweep.chain),
+                self.counts,
+                _NONE if is_sum else self.best,
+                self.attained,
+                self.best if is_sum else _NO_SUMS,
+            )
+            if is_sum:
+                self._carry(slice(None))
 
     def part(self) -> SweepPart:
         """The cells that are not empty."""
         cells = np.flatnonzero(self.counts)
-        measured = cells if len(self.best) else cells[:0]
+        kept: slice | np.ndarray = cells
+        if self.rule == "count" or self.rule == "top":
+            kept = slice(None)
         return SweepPart(
             cells,
             self.counts[cells],
-            self.best[measured],
-            self.attained[measured],
+            self.best[kept],
+            self.attained[kept],
             self.outside,
         )
 
@@ -77,26 +108,48 @@ class Totals:
         return SweepPart(slice(None), self.counts, self.best, self.attained, self.outside)
 
     def add(self, part: SweepPart) -> None:
-        """Adds a part. The sum of several is the same in any order: counts are whole numbers, and of
-        equal measures the smallest number of a sample stays.
+        """Adds a part. The sum of several is the same in any order: counts and sums are whole numbers,
+        and of equal measures the smallest number of a sample stays.
         """
         cells = part.cells
         self.outside += part.outside
         self.counts[cells] += part.counts
-        if len(self.best):
+        if self.rule == "sum":
+            self.best[cells] += part.best
+            self.attained[cells] += part.attained
+            self._carry(cells)
+        elif self.rule == "extreme":
             best = self.best[cells]
             attained = self.attained[cells]
             is_first = (part.best == best) & (part.attained < attained)
             is_better = (part.best > best) | is_first
             self.best[cells] = np.where(is_better, part.best, best)
             self.attained[cells] = np.where(is_better, part.attained, attained)
+        elif self.rule == "top":
+            best = np.concatenate([self.best, part.best])
+            attained = np.concatenate([self.attained, part.attained])
+            order = np.lexsort((attained, -best))[: len(self.best)]
+            self.best = best[order]
+            self.attained = attained[order]
+
+    def means(self) -> Array:
+        """Means of the measure in each cell, of sums."""
+        sums = self.best * (2.0**_HALF * _FINE) + self.attained * _FINE
+        counts = np.maximum(self.counts, 1)
+        return sums / counts
+
+    def _carry(self, cells: np.ndarray | slice) -> None:
+        """Brings the lower halves of sums below 2^32."""
+        rest = self.attained[cells]
+        self.best[cells] += rest >> _HALF
+        self.attained[cells] = rest & (2**_HALF - 1)
 
 
 def part_of(pickled: bytes, first: int, last: int) -> SweepPart:
     """Part of samples first ... last - 1 of a sweep: a function of these alone."""
     sweep = _unpickled(pickled)
-    totals = Totals(sweep.cells, sweep.is_measured)
-    totals.run(sweep, first, last)
+    totals = Totals(sweep)
+    totals.run(first, last)
     return totals.part()
 
 

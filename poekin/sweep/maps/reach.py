@@ -12,8 +12,10 @@ from ...model.kinematics.arm import Arm, chain_of
 from ...results import Progress
 from ..cells import Cells
 from ..execution.run import Executor, run
+from ..measures.measure import Measure
+from ..measures.names import MeasureName
 from ..samples import Random
-from ..sweep import Measure, Sweep
+from ..sweep import Keep, Sweep
 from .sweep_map import SweepMap
 
 _TRIED = 100_000
@@ -26,7 +28,8 @@ def reach(  # noqa: PLR0913 - options by keyword
     resolution: float = 0.05,
     samples: int = 10_000_000,
     side: int = 0,
-    measure: Measure = "reach",
+    measure: Measure | MeasureName = "reach",
+    keep: Keep = "best",
     seed: int = 0,
     chunk: int | None = None,
     workers: int | None = None,
@@ -50,8 +53,10 @@ def reach(  # noqa: PLR0913 - options by keyword
     side : int, default 0
         Tiles along each of the twelve faces of the sphere, for 12 side² directions of the tool's z
         axis (HEALPix); 0 where directions are not told apart.
-    measure : {"reach", "manipulability"}, default "reach"
-        Whether cells keep the best manipulability of the pose, and its configuration, too.
+    measure : Measure or str, default "reach"
+        What is kept of each cell besides counts, as `Sweep` has it.
+    keep : {"best", "worst", "mean"}, default "best"
+        Whether the best or the worst measure of a cell is kept, with its configuration, or the mean.
     seed : int, default 0
         Seed of the configurations.
     chunk : int, optional
@@ -104,7 +109,7 @@ def reach(  # noqa: PLR0913 - options by keyword
     drawn = Random.of(arm, samples, seed)
     cells = _around(arm, drawn, size, side)
     return run(
-        Sweep(arm, drawn, cells, measure),
+        Sweep(arm, drawn, cells, measure, keep),
         chunk=chunk,
         workers=workers,
         executor=executor,

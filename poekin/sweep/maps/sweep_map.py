@@ -16,7 +16,8 @@ from ...model.chain import Chain
 from ...results import Result
 from ..cells import Cells
 from ..execution.totals import NO_SAMPLE, Totals
-from ..samples import Grid, Random, Samples
+from ..measures.names import LABELS
+from ..samples import Samples, samples_from
 from ..sweep import Sweep
 from . import labelled, map_files
 from .kept_map import ARRAYS, KeptMap
@@ -32,17 +33,17 @@ class SweepMap(Result):
         The sweep as plain data.
     cells : Cells
         Where the cells are.
-    samples : Random or Grid
+    samples : Random, Sobol or Grid
         The configurations.
     counts : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray of int
         Number of samples in each cell.
     outside : int
         Number of samples in none of them.
     best : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray or None
-        Best measure in each cell, in SI units (rad, m), NaN in an empty one; None of a sweep that
-        only counts.
+        Measure that is kept of each cell, the best, the worst or the mean as about["keep"] says, in
+        SI units (rad, m), NaN in an empty one; None of a sweep that only counts.
     attained : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray of int or None
-        Number of the first sample with that measure, -1 in an empty cell.
+        Number of the first sample with that measure, -1 in an empty cell; None of means too.
     chain : Chain or None
         The arm; None of a map that was read from a file.
     """
@@ -118,7 +119,9 @@ class SweepMap(Result):
                 f"{100 * most:.3g} % in the best"
             )
         if self.best is not None and self.reached.any():
-            lines.append(f"manipulability up to {np.nanmax(self.best):.4g}")
+            label = LABELS[self.about["measure"]]
+            ends = label.between(float(np.nanmin(self.best)), float(np.nanmax(self.best)))
+            lines.append(f"{self.about['keep']} {label.words} of a cell: {ends}")
         lines.append(
             f"a further configuration would fall into an empty cell with a chance of {100 * self.new_cell_chance:.2g} %"
         )
@@ -185,7 +188,7 @@ class SweepMap(Result):
         return np.take(self.counts, number, axis=along)
 
     def configurations(self, cells: Any = ...) -> Array:
-        """The configurations with the best measure.
+        """The configurations with the best, or the worst, measure.
 
         Parameters
         ----------
@@ -200,10 +203,12 @@ class SweepMap(Result):
         Raises
         ------
         InputError
-            If the sweep has no measure.
+            If the sweep has no measure, or means.
         """
         if self.attained is None:
-            raise InputError("configurations: the sweep only counts (measure='reach')")
+            raise InputError(
+                "configurations: the sweep only counts (measure='reach'), or keeps means"
+            )
         numbers = np.asarray(self.attained[cells])
         known = numbers != NO_SAMPLE
         q = np.full((*numbers.shape, len(self.samples.lower)), np.nan)
@@ -246,25 +251,27 @@ class SweepMap(Result):
         map_files.write(path, self._kept(), self.cells)
 
     def _kept(self) -> KeptMap:
-        arrays = {"counts": self.counts}
-        if self.best is not None and self.attained is not None:
-            arrays |= {"best": self.best, "attained": self.attained}
+        every = {"counts": self.counts, "best": self.best, "attained": self.attained}
+        arrays = {name: values for name, values in every.items() if values is not None}
         return KeptMap(self.about, arrays, self.outside)
 
 
 def map_of(sweep: Sweep, totals: Totals) -> SweepMap:
     """The map of what a sweep has added up."""
-    shape = sweep.cells.array_shape
+    cells = sweep.cells
+    if not isinstance(cells, Cells):
+        raise InputError(f"map: expected a sweep of Cells, got {type(cells).__name__}")
+    shape = cells.array_shape
     best = None
     attained = None
-    if sweep.is_measured:
+    if totals.rule == "sum":
+        best = np.where(totals.counts > 0, totals.means(), np.nan).reshape(shape)
+    elif totals.rule == "extreme":
         attained = totals.attained.reshape(shape)
-        # squares were compared; rounding may make one of 0 negative
-        squares = np.maximum(totals.best.reshape(shape), 0.0)
-        best = np.sqrt(np.where(attained == NO_SAMPLE, np.nan, squares))
+        best = np.where(attained == NO_SAMPLE, np.nan, sweep.sign * totals.best.reshape(shape))
     return SweepMap(
         sweep.describe(),
-        sweep.cells,
+        cells,
         sweep.samples,
         totals.counts.reshape(shape),
         totals.outside,
@@ -300,18 +307,10 @@ def load_map(path: str | os.PathLike[str]) -> SweepMap:
     try:
         corner = tuple(about["corner"])
         cells = Cells(corner, about["resolution"], tuple(about["shape"]), about["side"])
-        samples = _samples(about["samples"])
+        samples = samples_from(about["samples"])
         counts, best, attained = (arrays.get(name) for name in ARRAYS)
         if counts is None:
             raise KeyError("counts")
         return SweepMap(about, cells, samples, counts, outside, best, attained)
     except (ValueError, KeyError, TypeError) as error:
         raise FileError(f"{path}: no map of a sweep, as SweepMap.save writes it") from error
-
-
-def _samples(about: dict[str, Any]) -> Samples:
-    lower, upper = np.array([about["lower"], about["upper"]])
-    if "random" in about:
-        return Random(lower, upper, about["random"], about["seed"])
-    counts = tuple(about["grid"])
-    return Grid(lower, upper, math.prod(counts), counts)

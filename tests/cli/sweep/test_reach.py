@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from typing import get_args
 
 import numpy as np
 import pytest
 
 import poekin as pk
 from poekin.sweep import load_map
+from poekin.sweep.measures.names import MeasureName
 
 FEW = ("--samples", "2e4", "--resolution", "0.2", "--tip", "tool0")
 
@@ -42,6 +44,33 @@ def test_options_reach_the_sweep_and_json_is_the_result(poekin):
     assert document["outside"] == 0
 
 
+def test_errors_are_those_of_the_tolerances_that_are_given(poekin):
+    chain = pk.load("stanford").chain()
+    words = ("--samples", "2e4", "--resolution", "0.2", "--keep", "worst")
+    error = ("--measure", "orientation_error", "--sigma-angle", "1e-3", "--sigma-length", "1e-4")
+    code, out, _ = poekin("sweep", "reach", "stanford", *words, *error)
+    measure = pk.sweep.PoseUncertainty.by_tolerances(
+        chain,
+        tilt=1e-3,
+        shift=1e-4,
+        offset=[1e-4 if kind == "prismatic" else 1e-3 for kind in chain.kinds],
+        part="orientation",
+    )
+    own = pk.sweep.reach(chain, samples=20_000, resolution=0.2, measure=measure, keep="worst")
+    assert code == 0
+    assert out.strip() == own.summary()
+    assert "worst standard deviation of the orientation of a cell" in out
+
+
+def test_every_measure_has_its_name(poekin):
+    for name in get_args(MeasureName):
+        words = ("--samples", "1e3", "--measure", name, "--keep", "mean", "--json")
+        code, out, _ = poekin("sweep", "reach", "ur5e", *words)
+        assert code == 0
+        about = json.loads(out)["about"]
+        assert (about["measure"], about["keep"]) == (name, "mean")
+
+
 def test_a_store_is_gone_on_with_where_it_is_asked(tmp_path, poekin, refused):
     store = ("--store", str(tmp_path / "parts"))
     assert poekin("sweep", "reach", "ur5e", *FEW, *store)[0] == 0
@@ -62,6 +91,9 @@ def test_a_store_is_gone_on_with_where_it_is_asked(tmp_path, poekin, refused):
         (("--samples", "1.5"), "--samples: expected a whole number"),
         (("--samples", "0"), "count: expected a whole number from 1 on"),
         (("--output", "map.csv"), "--output: expected a .npz file or a .zarr directory"),
+        (("--measure", "position_error"), "--sigma-angle, --sigma-length: expected, one or both"),
+        (("--sigma-angle", "1e-3"), "--sigma-angle, --sigma-length: expected, one or both"),
+        (("--sigma-length", "1e-3", "--measure", "travel"), "and with no other"),
         (("--resume",), "--resume: expected with --store"),
         (("--resolution", "0"), "resolution: expected a positive number"),
         (("--resolution", "1e-9"), "at most 2^40 cells"),

@@ -17,6 +17,19 @@ for name, tip in (("panda", "panda_hand"), ("ur5e", "tool0"), ("stanford", None)
     found = pk.sweep.reach(arm, samples=50_000, side=4, resolution=0.1, measure="manipulability")
     for numbers in (found.counts, found.best, found.attained):
         print(hashlib.sha256(numbers.tobytes()).hexdigest())
+arm = pk.load("ur5e").chain(tip="tool0")
+cells = pk.sweep.Cells.box([-1] * 3, [1] * 3, 0.2)
+samples = pk.sweep.Sobol.of(arm, 20_000)
+error = dict(tilt=1e-3, shift=1e-4, offset=1e-4)
+for measure in (
+    "inverse_condition",
+    "limit_margin",
+    "travel",
+    pk.sweep.PoseUncertainty.by_tolerances(arm, **error),
+    pk.sweep.PoseUncertainty.by_tolerances(arm, **error, bound=True),
+):
+    sweep = pk.sweep.Sweep(arm, samples, cells, measure, "mean")
+    print(hashlib.sha256(pk.sweep.run(sweep).best.tobytes()).hexdigest())
 """
 
 
@@ -37,5 +50,5 @@ def hashes(**variables: str) -> str:
 @pytest.mark.parametrize("name", ["generic", "sandybridge"])
 def test_a_sweep_has_the_same_bytes_as_another_processor_runs_it(name):
     here = hashes()
-    assert len(here.split()) == 9
+    assert len(here.split()) == 14
     assert hashes(NUMBA_CPU_NAME=name, NUMBA_CPU_FEATURES="") == here

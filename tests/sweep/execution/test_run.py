@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -136,9 +137,9 @@ def test_an_executor_is_given_two_parts_for_each_worker(whole, workers, most):
 def test_parts_add_up_to_the_same_in_any_order(cuts, order):
     small = Sweep(ARM, Random.of(ARM, 3000, seed=1), CELLS, "manipulability")
     ends = [0, *sorted(cuts), 3000]
-    parts = [part_of(small, a, b) for a, b in pairwise(ends)]
+    parts = [part_of(pickle.dumps(small), a, b) for a, b in pairwise(ends)]
     order.shuffle(parts)
-    totals = Totals(CELLS, True)
+    totals = Totals(small)
     for part in parts:
         totals.add(part)
     expected = run(small, workers=1)

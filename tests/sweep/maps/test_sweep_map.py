@@ -65,7 +65,9 @@ def test_the_summary_says_volume_directions_and_measure():
     volume = np.count_nonzero(MEASURED.reached) * 1e-3
     assert lines[1] == f"{volume:.4g} m³ of 8 m³ reached, in cubes of 100 mm"
     assert lines[2].startswith("of 12 directions of the tool 8.33 % in the mean")
-    assert lines[3] == f"manipulability up to {np.nanmax(measured(MEASURED)[0]):.4g}"
+    best = measured(MEASURED)[0]
+    ends = f"{np.nanmin(best):.4g} to {np.nanmax(best):.4g}"
+    assert lines[3] == f"best manipulability of a cell: {ends}"
     once = np.count_nonzero(MEASURED.counts == 1) / 5000
     assert (
         lines[4]

@@ -49,6 +49,23 @@ def test_a_point_in_each_cube_has_the_value_that_the_words_say(measure, side, wo
     assert "cloud" in scene.shown
 
 
+@pytest.mark.parametrize("keep", ["best", "worst", "mean"])
+@pytest.mark.parametrize("name", ["travel", "limit_margin"])
+def test_a_cube_has_the_colour_of_what_is_kept_of_all_its_directions(name, keep):
+    flat = Cells(CELLS.corner, CELLS.resolution, CELLS.shape)
+    expected = run(Sweep(ARM, SAMPLES, flat, name, keep))
+    scene = sweep_map_scene(run(Sweep(ARM, SAMPLES, CELLS, name, keep)))
+    # of means in units of 2^-40, and divided
+    np.testing.assert_allclose(
+        cloud(scene).values, np.asarray(expected.best)[expected.reached], rtol=1e-13, atol=1e-12
+    )
+    words = {"travel": "joint travel", "limit_margin": "distance to the joint limits"}[name]
+    unit = {"travel": " rad or m.", "limit_margin": " % of half the range."}[name]
+    (said,) = [line for line in scene.words if line.startswith("Blue")]
+    assert said.startswith(f"Blue to orange: {keep} {words}, 0 to ")
+    assert said.endswith(unit)
+
+
 def test_a_map_out_of_a_file_is_drawn_in_the_robot_that_is_named(tmp_path):
     found = run(Sweep(ARM, SAMPLES, CELLS))
     found.save(tmp_path / "map.npz")

@@ -1,13 +1,15 @@
 """Samples by their numbers: the same q for a number whoever asks, in any order.
 
 Random numbers are those of SplitMix64 (Steele, Lea and Flood 2014): number i is a mix of the start
-and i, so that none needs another.
+and i, so that none needs another. Those of Sobol's sequence differ from one to the next in one
+direction number of each coordinate.
 """
 
 import numpy as np
 
 KIND, SEED, COUNTS = range(3)
-GRID, RANDOM = range(2)
+GRID, RANDOM, SOBOL = range(3)
+_BITS = 64  # direction numbers of a coordinate
 _STEP = np.uint64(0x9E3779B97F4A7C15)
 _FIRST = np.uint64(0xBF58476D1CE4E5B9)
 _SECOND = np.uint64(0x94D049BB133111EB)
@@ -19,6 +21,8 @@ def write_samples(samples, bounds, first, q):
     if samples[KIND] == GRID:
         for k in range(q.shape[0]):
             _write_grid(first + k, samples[COUNTS:], bounds, q[k])
+    elif samples[KIND] == SOBOL:
+        _write_sobol(samples[1:], first, bounds, q)
     else:
         _write_random(np.uint64(samples[SEED]), first, bounds, q)
 
@@ -30,7 +34,39 @@ def _write_random(seed, first, bounds, q):
     for k in range(count):
         for i in range(m):
             bits = _mixed(start + np.uint64((first + k) * m + i + 1) * _STEP)
-            q[k, i] = bounds[0, i] + bounds[1, i] * (np.int64(bits >> np.uint64(11)) * _UNIT)
+            q[k, i] = bounds[0, i] + bounds[1, i] * _unit(bits)
+
+
+def _write_sobol(numbers, first, bounds, q):
+    """Evenly between the bounds: `numbers` are shifts (m) and direction numbers (m, 64)."""
+    count, m = q.shape
+    for i in range(m):
+        v = numbers[m + _BITS * i :]
+        bits = numbers[i]
+        gray = first ^ (first >> 1)
+        k = 0
+        while gray:
+            if gray & 1:
+                bits ^= v[k]
+            gray >>= 1
+            k += 1
+        for j in range(count):
+            q[j, i] = bounds[0, i] + bounds[1, i] * _unit(np.uint64(bits))
+            bits ^= v[_lowest_zero(first + j)]
+
+
+def _lowest_zero(number):
+    """Place of the lowest bit that is 0: where the Gray codes of a number and the next one differ."""
+    k = 0
+    while number & 1:
+        number >>= 1
+        k += 1
+    return k
+
+
+def _unit(bits):
+    """The number from 0 to 1, 1 left out, of the highest 53 of 64 bits."""
+    return np.int64(bits >> np.uint64(11)) * _UNIT
 
 
 def _mixed(x):

@@ -2,7 +2,8 @@
 
 Samples come as whole numbers, kind, seed and the counts of a grid, and bounds: lower ends and widths
 (2, m). Cells come as whole numbers, tiles along a face's side (0 for none) and cubes along x, y and
-z, and a place: the corner, m, and cubes per m.
+z, and a place: the corner, m, and cubes per m. Bins of a measure come as BINS and their number, and
+a place: where they begin, two zeros, and bins per unit. A measure comes as `measures` says.
 
 Blocks begin at multiples of their length wherever a range does, and nothing is fused, so that a
 sample's numbers do not depend on the range or the processor. Importing this module imports Numba.
@@ -16,10 +17,26 @@ from ...jit.array_io import without_refcount
 from ...jit.kernel import kernel
 from ...straight_line.machine_code import LANES
 from ..arm_kernels import BLOCK, run_columns, sines_of_block, sines_room
+from .measures import (
+    KIND,
+    OF_COORDINATES,
+    OF_OUTPUTS,
+    OUTPUTS,
+    ROOT,
+    SIGN,
+    matrix_room,
+    measure_coordinates,
+    measure_lanes,
+)
 from .samples import write_samples
 from .tiles import tile
 
 OUTSIDE = -1
+BINS, TOP = -1, -2
+HALF = 32
+FINE = 2.0**40
+"""Units of a sum of measures in 1."""
+_LARGEST = 2.0**62
 
 
 def _cell(cells, place, p, axis):
@@ -44,43 +61,130 @@ def _write_cells(cells, place, R_p, found, first):
         found[first + lane] = _cell(cells, place, p, axis)
 
 
-@kernel("int int int i1 r2 i1 r1 n1 w1 n1", returns="int", portable=True)
-def swept(arm, first, last, samples, bounds, cells, place, counts, best, attained):
-    """Samples first ... last - 1: how many lie in each cell is added to `counts`. Where `best` is no
-    empty array, the largest measure of each cell, and the number of the first sample that has it.
-    Returns how many lie outside.
+@kernel("int int int i1 r2 i1 r1 i1 r1 n1 w1 n1 n1", returns="int", portable=True)
+def swept(
+    arm,
+    first,
+    last,
+    samples,
+    bounds,
+    cells,
+    place,
+    measure,
+    numbers,
+    counts,
+    best,
+    attained,
+    sums,
+):
+    """Samples first ... last - 1: how many lie in each cell is added to `counts`. Returns how many lie
+    in none. The measure, times its sign, is kept by arrays that are not empty:
+
+    - `best` and `attained`, as long as `counts`: the largest of each cell, and the first sample that
+      has it
+    - `sums` and `attained`: the sums of each cell in units of 2^-40, as multiples of 2^32 and what is
+      left, to which at most 2^30 samples are added
+    - `best` and `attained`, where cells[0] is TOP: the largest of all in descending order
     """
     counts = without_refcount(counts)
     best = without_refcount(best)
     attained = without_refcount(attained)
-    is_measured = best.size > 0
+    sums = without_refcount(sums)
     q = np.empty((BLOCK, bounds.shape[1]))
     sines = np.empty((sines_room(arm), BLOCK))
     cosines = np.empty((sines_room(arm), BLOCK))
     R_p = np.empty((12, LANES))
-    measure = np.empty((1, LANES))
-    measures = np.empty(BLOCK)
+    outputs = np.empty((measure[OUTPUTS], LANES))
+    W = matrix_room(measure)
+    four = np.empty(LANES)
+    values = np.empty(BLOCK)
     found = np.empty(BLOCK, np.int64)
+    kind = measure[KIND]
+    is_root = kind == ROOT and measure[OUTPUTS] == 1
+    is_spatial = cells[0] >= 0
     outside = 0
     for start in range(first - first % BLOCK, last, BLOCK):
         write_samples(samples, bounds, start, q)
         sines_of_block(arm, q, sines, cosines)
         for k in range(0, BLOCK, LANES):
-            run_columns(arm, sines, cosines, k, q, R_p, measure)
-            _write_cells(cells, place, R_p, found, k)
-            for lane in range(LANES):
-                measures[k + lane] = measure[0, lane]
-        # in a loop of its own, so that the processor waits for the memory of many cells at once
-        for k in range(max(first - start, 0), min(last - start, BLOCK)):
-            cell = found[k]
-            if cell == OUTSIDE:
-                outside += 1
-            else:
-                counts[cell] += 1
-                if is_measured and measures[k] > best[cell]:
-                    best[cell] = measures[k]
-                    attained[cell] = start + k
+            run_columns(arm, sines, cosines, k, q, R_p, outputs)
+            if is_spatial:
+                _write_cells(cells, place, R_p, found, k)
+            if is_root:
+                for lane in range(LANES):
+                    values[k + lane] = outputs[0, lane]
+            elif kind in OF_OUTPUTS:
+                measure_lanes(measure, numbers, outputs, W, four, values, k)
+        if is_root:
+            for k in range(BLOCK):
+                values[k] = math.sqrt(values[k]) if values[k] > 0.0 else 0.0
+        elif kind in OF_COORDINATES:
+            measure_coordinates(measure, numbers, q, values)
+        if not is_spatial:
+            _write_bins(cells, place, values, found)
+        begin = max(first - start, 0)
+        end = min(last - start, BLOCK)
+        # in loops of their own, so that the processor waits for the memory of many cells at once
+        outside += _count(found, begin, end, counts)
+        if cells[0] == TOP:
+            _keep_top(measure[SIGN], values, begin, end, start, best, attained)
+        elif best.size > 0:
+            _keep_best(measure[SIGN], values, found, begin, end, start, best, attained)
+        elif sums.size > 0:
+            _add(values, found, begin, end, sums, attained)
     return outside
+
+
+def _count(found, begin, end, counts):
+    """Counts samples in their cells. Returns how many lie in none."""
+    outside = 0
+    for k in range(begin, end):
+        if found[k] == OUTSIDE:
+            outside += 1
+        else:
+            counts[found[k]] += 1
+    return outside
+
+
+def _keep_best(sign, values, found, begin, end, start, best, attained):
+    for k in range(begin, end):
+        cell = found[k]
+        value = sign * values[k]
+        if cell != OUTSIDE and value > best[cell]:
+            best[cell] = value
+            attained[cell] = start + k
+
+
+def _keep_top(sign, values, begin, end, start, best, attained):
+    """Inserts in descending order; of equal ones the first sample stays before the others."""
+    for k in range(begin, end):
+        value = sign * values[k]
+        i = len(best) - 1
+        if value > best[i]:
+            while i > 0 and value > best[i - 1]:
+                best[i] = best[i - 1]
+                attained[i] = attained[i - 1]
+                i -= 1
+            best[i] = value
+            attained[i] = start + k
+
+
+def _add(values, found, begin, end, sums, rest):
+    for k in range(begin, end):
+        cell = found[k]
+        if cell != OUTSIDE:
+            units = math.floor(min(max(values[k] * FINE, -_LARGEST), _LARGEST) + 0.5)
+            sums[cell] += units >> HALF
+            rest[cell] += units & (2**HALF - 1)
+
+
+def _write_bins(cells, place, values, found):
+    """Bins of the measures; where cells[0] is TOP, all are in the first."""
+    for k in range(BLOCK):
+        found[k] = 0
+        if cells[0] == BINS:
+            along = (values[k] - place[0]) * place[3]
+            found[k] = int(along) if 0.0 <= along < cells[1] else OUTSIDE
 
 
 @kernel("i1 i1 r2 w2", portable=True)

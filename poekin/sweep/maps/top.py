@@ -1,0 +1,121 @@
+"""top: the configurations with the best measures of all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Unpack
+
+import numpy as np
+
+from ...checks import whole
+from ...errors import InputError
+from ...groups.arrays import Array
+from ...model.kinematics.arm import Arm, chain_of
+from ...results import Result
+from ..bins import TopList
+from ..execution.run import RunOptions, run_totals
+from ..measures.measure import Measure
+from ..measures.names import LABELS, MeasureName
+from ..samples import Random, Samples
+from ..sweep import Keep, Sweep
+
+_LONGEST = 2**20
+
+
+@dataclass(frozen=True, eq=False)
+class TopSamples(Result):
+    """Configurations with the best, or worst, measures, in order; the result of `top`.
+
+    Attributes
+    ----------
+    about : dict
+        The sweep as plain data.
+    values : (K,) ndarray
+        Their measures, in SI units (rad, m).
+    numbers : (K,) ndarray of int
+        Their numbers among the samples; of equal measures the smaller number comes first.
+    q : (K, m) ndarray
+        The configurations, rad or m.
+    """
+
+    about: dict[str, Any]
+    values: Array
+    numbers: np.ndarray
+    q: Array
+
+    def summary(self) -> str:
+        """First and last measure.
+
+        Returns
+        -------
+        text : str
+            Line such as "10 best of 1000000 configurations: manipulability 0.12 to 0.11".
+        """
+        label = LABELS[self.about["measure"]]
+        ends = label.between(float(self.values[0]), float(self.values[-1]))
+        return (
+            f"{len(self.values)} {self.about['keep']} of {self.about['count']} configurations: "
+            f"{label.words} {ends}"
+        )
+
+
+def top(
+    chain: Arm,
+    measure: Measure | MeasureName,
+    count: int = 10,
+    *,
+    keep: Keep = "best",
+    samples: int | Samples = 10_000_000,
+    **options: Unpack[RunOptions],
+) -> TopSamples:
+    """Finds the configurations with the best measures.
+
+    Parameters
+    ----------
+    chain : Chain or CompiledChain
+        The arm.
+    measure : Measure or str
+        The measure, as `Sweep` has it.
+    count : int, default 10
+        Number of configurations; fewer where there are fewer samples.
+    keep : {"best", "worst"}, default "best"
+        Whether the best or the worst are found.
+    samples : int or Samples, default 10000000
+        Number of random configurations, or `Random`, `Sobol` or `Grid` ones.
+    **options
+        Options of `run`; the result does not depend on them, to the last bit.
+
+    Returns
+    -------
+    found : TopSamples
+        The configurations, the best, or worst, first.
+
+    Raises
+    ------
+    InputError
+        If an option cannot be used, the measure is "reach" or keep is "mean".
+    FileError
+        If the store cannot be read or written.
+
+    See Also
+    --------
+    histogram : Numbers of configurations by their measure.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5e").chain(tip="tool0")
+    >>> found = pk.sweep.top(arm, "manipulability", 3, samples=100_000)
+    >>> found.q.shape
+    (3, 6)
+    """
+    arm = chain_of(chain)
+    drawn = samples if isinstance(samples, Samples) else Random.of(arm, samples)
+    whole(count, "count", 1, _LONGEST)
+    if keep == "mean":
+        raise InputError("keep: expected 'best' or 'worst', got 'mean'")
+    sweep = Sweep(arm, drawn, TopList(min(count, drawn.count)), measure, keep)
+    totals = run_totals(sweep, **options)
+    about = sweep.describe() | {"count": drawn.count}
+    numbers = totals.attained
+    return TopSamples(about, sweep.sign * totals.best, numbers, drawn.configurations(numbers))

@@ -1,0 +1,1 @@
+"""Measures of a configuration that cells, histograms and lists keep."""

@@ -1,0 +1,57 @@
+"""Straight-line program of an arm's pose and of how far errors of its screws move the tool."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ...algebra import translation
+from ...engine.straight_line.program import Angles, Program, program
+from ...engine.straight_line.trace import Graph
+from ...formulas.kinematics.screw_changes import (
+    pose_changes,
+    products,
+    source_twist,
+    squared_displacement,
+    squared_rotation,
+)
+from ...formulas.lie import exponential
+
+Rows = Sequence[Sequence[float]]
+
+
+def error_program(
+    screws: Rows,
+    home: Sequence[float],
+    coupling: Rows,
+    offset: Sequence[float],
+    sources: Sequence[Rows],
+    is_rotation: bool,
+    summed: bool,
+) -> Program:
+    """The pose's twelve numbers, and the squares of the tool's displacement (m²) or rotation (rad²) by
+    each source, or their sum.
+    """
+    graph = Graph()
+    angles = Angles(graph)
+    n = len(screws)
+    exponentials: list[Any] = []
+    for S, row, shift in zip(screws, coupling, offset, strict=True):
+        w = tuple(S[:3])
+        sine: Any = 0.0
+        cosine: Any = 1.0
+        if any(w):
+            sine, cosine = angles.sine_cosine(row, shift, 0)
+        x = graph.linear([(k, factor) for k, factor in enumerate(row) if factor], shift)
+        exponentials.append(exponential.joint(w, tuple(S[3:]), x, sine, cosine))
+    P: list[Any] = [[0.0] * 12 for _ in range(n + 2)]
+    products(exponentials, tuple(home), n, P)
+    D: list[Any] = [[[0.0] * 6 for _ in range(n + 1)] for _ in range(6)]
+    pose_changes(P, n, D)
+    p = translation(P[n + 1])
+    squared = squared_rotation if is_rotation else squared_displacement
+    squares = [squared(source_twist(D, p, source, n)) for source in sources]
+    total: Any = 0.0
+    for square in squares:
+        total = total + square
+    return program(graph, angles, [*P[n + 1], *([total] if summed else squares)])

@@ -1,0 +1,108 @@
+"""Measures of the coordinates alone: distance to their limits, travel from a configuration."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import InputError, ShapeError
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.sampling import sampling_range
+from .measure import Measure
+
+
+@dataclass(frozen=True)
+class LimitMargin(Measure):
+    """Relative distance to the joint limits: 0 at a limit, 1 where all coordinates are in the middle.
+
+    It is that of the worst coordinate, its distance to the nearer limit over half its range; a
+    coordinate that has not both limits does not count.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("panda").chain(tip="panda_hand")
+    >>> measure = pk.sweep.LimitMargin()
+    >>> found = pk.sweep.reach(arm, resolution=0.2, samples=20_000, measure=measure)
+    >>> bool((found.best[found.counts > 0] > 0).all())
+    True
+    """
+
+    called = "limit_margin"
+    kind = 5
+
+    def check(self, chain: Chain) -> None:
+        """Refuses an arm without limits. Raises: InputError."""
+        if not _has_limits(chain).any():
+            raise InputError(f"sweep: measure {self.name!r}: no coordinate of {chain!r} has limits")
+
+    def numbers(self, chain: Chain) -> Array:
+        """Middles, and 1 over half the ranges."""
+        is_limited = _has_limits(chain)
+        lower, upper = np.where(is_limited[:, None], chain.limits, [-1.0, 1.0]).T
+        return np.concatenate([lower / 2 + upper / 2, is_limited * 2.0 / (upper - lower)])
+
+
+@dataclass(frozen=True)
+class JointTravel(Measure):
+    """Joint travel from a reference configuration: the largest change of a coordinate.
+
+    Attributes
+    ----------
+    reference : tuple of float, optional
+        The configuration, rad or m; by default all 0, or the limit that is nearest to that.
+    speeds : tuple of float, optional
+        Speeds of the coordinates, rad/s or m/s: with them travel is a time, s.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5e").chain(tip="tool0")
+    >>> home = (0.0, -1.5, 1.5, -1.5, -1.5, 0.0)
+    >>> measure = pk.sweep.JointTravel(home, speeds=tuple(arm.velocity_limits))
+    >>> found = pk.sweep.reach(arm, resolution=0.2, samples=20_000, measure=measure)
+    >>> bool((found.best[found.counts > 0] < 5).all())  # seconds
+    True
+    """
+
+    reference: tuple[float, ...] | None = None
+    speeds: tuple[float, ...] | None = None
+
+    kind = 4
+    sign = -1
+
+    @property
+    def name(self) -> str:
+        """Its name, another one where it is a time."""
+        return "travel" if self.speeds is None else "travel_time"
+
+    def check(self, chain: Chain) -> None:
+        """Refuses numbers of another arm. Raises: InputError, ShapeError."""
+        for what, values in (("reference", self.reference), ("speeds", self.speeds)):
+            if values is None:
+                continue
+            given = np.asarray(values, float)
+            if given.shape != (chain.dof,):
+                raise ShapeError(f"{what}: expected {chain.dof} numbers, got {given.shape}")
+            if not np.isfinite(given).all() or (what == "speeds" and not (given > 0).all()):
+                raise InputError(f"{what}: expected finite numbers, speeds above 0, got {values}")
+
+    def numbers(self, chain: Chain) -> Array:
+        """Reference, and 1 over the speeds."""
+        reference = self.reference
+        if reference is None:
+            reference = np.clip(0.0, *sampling_range(chain))
+        speeds = np.ones(chain.dof) if self.speeds is None else np.asarray(self.speeds)
+        return np.concatenate([reference, 1.0 / speeds])
+
+    def describe(self) -> dict[str, object]:
+        """Reference and speeds."""
+        given = {"reference": self.reference, "speeds": self.speeds}
+        return {what: None if x is None else list(map(float, x)) for what, x in given.items()}
+
+
+def _has_limits(chain: Chain) -> np.ndarray:
+    """Whether each coordinate (m,) has both limits."""
+    return np.logical_and(*np.isfinite(chain.limits).T)

@@ -1,0 +1,89 @@
+"""First-order errors of six arms against arms that are drawn, and what the second order adds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import InputError
+from poekin.sweep import PoseUncertainty, monte_carlo
+from tests.sweep.arms import slide, two_links
+from tests.sweep.measures.first_order import effects
+
+ARMS = {
+    "ur5e": "tool0",
+    "panda": "panda_hand",
+    "iiwa14": None,
+    "kr5": None,
+    "puma560": None,
+    "stanford": None,
+}
+TOLERANCES = {
+    "tilt": 1e-3,
+    "shift": 2e-4,
+    "offset": 5e-4,
+    "home_rotation": 1e-3,
+    "home_position": 2e-4,
+}
+PARTS = ("position", "orientation")
+
+
+@pytest.mark.parametrize("draws", [50_000, pytest.param(1_000_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", ARMS)
+def test_the_first_order_is_within_two_percent_of_arms_that_are_drawn(name, draws):
+    chain = pk.load(name).chain(tip=ARMS[name])
+    q = chain.random(4, 2)
+    error = PoseUncertainty.by_tolerances(chain, **TOLERANCES)
+    drawn = monte_carlo(chain, q, error, draws=draws)
+    for part, found in zip(PARTS, (drawn.position, drawn.orientation), strict=True):
+        first = np.sqrt(np.square(effects(chain, q, error, part)).sum(axis=1))
+        assert np.abs(found / first - 1).max() <= 0.02
+    # the mean is off by the second order, the squares of some ten errors times some metres
+    assert (np.linalg.norm(drawn.position_bias, axis=1) <= 100 * 1e-3**2).all()
+
+
+def test_the_bias_of_a_turn_about_one_axis_is_that_of_a_cosine():
+    # a turn by δ moves the tip at (r, 0) to r (cos δ, sin δ), whose mean is r (exp(-σ²/2), 0)
+    chain = two_links()
+    error = PoseUncertainty.by_tolerances(chain, offset=[0.2, 0.0])
+    drawn = monte_carlo(chain, [0.0, 0.0], error, draws=100_000, seed=3)
+    r = 0.8
+    expected = r * (np.exp(-(0.2**2) / 2) - 1)
+    # standard deviation of cos δ, σ² / √2; six of them over the root of the pairs
+    assert abs(drawn.position_bias[0] - expected) < 6 * r * 0.2**2 / np.sqrt(2 * 50_000)
+    # sin δ is the opposite for the other one of a pair
+    assert abs(drawn.position_bias[1]) < 1e-14
+    assert drawn.orientation == pytest.approx(0.2, rel=6 / np.sqrt(1e5))
+
+
+def test_one_configuration_a_batch_and_a_dict_are_alike():
+    chain = slide()
+    error = PoseUncertainty.by_tolerances(chain, tilt=1e-3)
+    q = np.array([[0.1, 0.3], [0.2, -0.4]])
+    batch = monte_carlo(chain, q, error, draws=30_000, seed=1)
+    assert batch.position.shape == (2,)
+    assert batch.orientation_bias.shape == (2, 3)
+    one = monte_carlo(
+        chain, dict(zip(chain.q_names, q[1], strict=True)), error, draws=30_000, seed=1
+    )
+    assert one.position == batch.position[1]
+    assert one.draws == 30_000
+    assert monte_carlo(chain, q[1], error, draws=3).draws == 4
+    text = f"30000 arms, standard deviations: position {1e3 * batch.position.max():.4g} mm, bias "
+    assert batch.summary().startswith(text)
+    assert monte_carlo(chain, q[:0], error).summary() == "no configuration"
+    other = monte_carlo(chain, q[1], error, draws=30_000, seed=2)
+    assert other.position != one.position
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [({"draws": 1}, "draws: expected a whole number from 2"), ({"seed": -1}, "seed")],
+)
+def test_what_cannot_be_drawn_is_refused(options, words):
+    error = PoseUncertainty.by_tolerances(slide(), tilt=1e-3)
+    with pytest.raises(InputError, match=words):
+        monte_carlo(slide(), [0.1, 0.3], error, **options)
+    with pytest.raises(InputError, match="it is of an arm of 2 joints"):
+        monte_carlo(pk.load("ur5e").chain(), np.zeros(6), error)
