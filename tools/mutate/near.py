@@ -1,7 +1,7 @@
 """Tests that a mutant meets first, where those called like its module are not the quickest.
 
 A key holds names of modules or of folders, a value names of tests; `names` says what they mean.
-`own` stands for the tests that are called like the module.
+`own` stands for the tests that are called like the module; of a folder, those of all of it follow.
 """
 
 from __future__ import annotations
@@ -124,6 +124,7 @@ NEAR = {
     "solve/problem": f"{_FRAMES} solve/refusals solve/fitting solve/calibrate solve/choose",
     "analysis/axes analysis/shapes": _AXES,
     "analysis/axis_lines": f"own analysis/lines {_COMPARES}",
+    "analysis/compare/compare": f"{_COMPARES} analysis/length_unit",
     "analysis/comparison": f"analysis/messages {_COMPARES}",
     "analysis/count analysis/count_methods": _COUNTS,
     "analysis/count_scalars analysis/count_table": _COUNTS,
