@@ -56,6 +56,15 @@ def test_a_branch_far_outside_or_of_no_number_is_passed_over():
     assert len(selected(T, np.array([branch(q, -1e-3)]))) == 1
 
 
+@pytest.mark.parametrize("more", [0, 1])
+def test_a_branch_may_have_more_numbers_before_its_margin(more):
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    beside = [9.0] * more
+    assert len(selected(T, [[*q, *beside, 0.5]])) == 1
+    assert len(selected(T, [[*q, *beside, -0.5]])) == 0
+
+
 def test_a_half_turn_away_is_no_solution():
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
     T = ARM.fk(q)
