@@ -19,7 +19,7 @@ from ..model.readings.coupled import beyond_own_limits
 from ..model.sampling import sampling_range
 
 _TRIED = 4096
-_ASKED = 2**62 // 64  # numbers of samples times coordinates are 64-bit numbers too
+_ASKED = 2**56  # numbers of samples times up to 64 coordinates are 64-bit numbers too
 
 
 @dataclass(frozen=True, eq=False)

@@ -85,6 +85,7 @@ NEAR = {
     "model/normals": "model/axis_walk model/idealised model/hp formats/dh_values formats/dh",
     "model/provenance model/robot model/tree": _ROBOTS,
     "model/screw": f"model/screw_values own {_REFUSALS} model/pitches model/checks {CHAINS}",
+    "model/unit_screws": f"model/screw_values model/pitches {_REFUSALS}",
     "model/structure": "own model/compiled",
     "formats/dh/": f"{DH} formats/dh_calibrated --deselect={_SLOW}",
     "formats/erd": "formats/load",
