@@ -18,7 +18,7 @@ _SMALL_ANGLES = (
 )
 _ANGLES = f"{_SMALL_ANGLES} {_KINDS}"
 _REFUSALS = "model/refusals"
-_ROBOTS = f"{_REFUSALS} model/tree model/robot model/robot_coordinates"
+_ROBOTS = f"{_REFUSALS} model/tree model/robot model/robot_coordinates model/peer_names"
 _EMITTED = "formats/emit_words formats/emit_python formats/emit_c cli/emit"
 _FRAMES = "solve/measurements solve/shared_frames"
 _POINTS = "solve/measurements solve/data solve/noise solve/simulated solve/choose"
