@@ -599,6 +599,17 @@ def test_what_the_near_tests_let_through_is_tried_on_all_only_where_the_sample_f
     assert ran == [(len(keys), False)]
 
 
+def test_a_run_without_time_for_any_mutant_proves_nothing(tmp_path, monkeypatch, capsys):
+    _project(tmp_path, monkeypatch)
+    until: list[float] = []
+    monkeypatch.setattr(command, "_run", lambda *_, **more: until.append(more["until"]))
+    begin = time.monotonic()
+    assert command.main(["--sample", "60", "--afresh", "--seconds", "50"]) == 1
+    assert "no time for any mutant" in capsys.readouterr().out
+    # a fifth is kept for what the tests near a module let through
+    assert 40 <= until[0] - begin <= 40 + time.monotonic() - begin
+
+
 def test_a_large_sample_is_judged_as_well():
     assert sample.chance(800, {"solve": 16_000}) == pytest.approx(0.5, abs=0.02)
     assert sample.chance(0, {}) == 1

@@ -114,6 +114,9 @@ def main(arguments: list[str] | None = None) -> int:
                 file=sys.stderr,
             )
             return 2
+        if waiting and not any(m.key in outcomes for m in chosen):
+            print("FAILED: there was no time for any mutant")
+            return 1
     if said.count:
         outcomes = {}
     elif earlier:
