@@ -14,7 +14,7 @@ from ..errors import InputError, ShapeError
 from ..groups.arrays import Array, poses
 from .tile_centres import tile_centres
 
-_MOST_TILES = 1024
+_SIDES = 1025  # a square of tiles has fewer along a side
 _MOST_CELLS = 2**40
 
 
@@ -70,7 +70,7 @@ class Cells:
             If a number cannot be used, or there would be more than 2^40 cells.
         """
         size = positive(resolution, "resolution")
-        whole(side, "side", 0, _MOST_TILES + 1)
+        whole(side, "side", 0, _SIDES)
         ends = np.array([_corner(lower, "lower"), _corner(upper, "upper")])
         if not (ends[0] < ends[1]).all():
             raise InputError(f"box: expected lower below upper, got {ends[0]} and {ends[1]}")

@@ -20,7 +20,7 @@ from ..model.sampling import sampling_range
 from .direction_numbers import MOST, sobol_numbers
 
 _TRIED = 4096
-_ASKED = 2**62 // 64  # numbers of samples times coordinates are 64-bit numbers too
+_ASKED = 2**56  # numbers of samples times up to 64 coordinates are 64-bit numbers too
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,8 +22,6 @@ def tile_centres(side: int) -> Array:
     across = np.where(is_polar, to_pole, side)
     polar = np.sign(2 * side - ring) * (1.0 - to_pole**2 / (3.0 * side**2))
     z = np.where(is_polar, polar, (2 * side - ring) * 2.0 / (3.0 * side))
-    shift = np.where(is_polar, 0, (ring - side) % 2)
-    place = (_FIRST[face] * across + i - j + 1 + shift) / 2
-    turn = (place - 0.5 * (shift + 1)) * np.pi / (2 * across)
+    turn = (_FIRST[face] * across + i - j) * np.pi / (4 * across)
     r = np.sqrt(1.0 - z * z)
     return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)

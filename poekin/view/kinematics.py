@@ -64,8 +64,7 @@ def default_tips(robot: Robot) -> tuple[str, ...]:
         other = last.setdefault(moved_by, chain)
         if depths[leaf] > depths[other.tip]:
             last[moved_by] = chain
-    if len(last) > 1:
-        last.pop("", None)
+    last = {name: chain for name, chain in last.items() if name} or last
     left = list(last.values())
     chosen: list[str] = []
     moving: set[str] = set()

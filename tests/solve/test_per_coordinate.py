@@ -28,7 +28,7 @@ def test_one_number_or_one_for_each_or_names():
         (
             [[1, 2]],
             ShapeError,
-            r"speed: expected one number, or one a coordinate \(2,\), got shape",
+            r"speed: expected one number, or one a coordinate \(2,\), got shape \(1, 2\)$",
         ),
         ([1, 2, 3], ShapeError, "speed: expected 2 coordinates"),
         ({"a": 1}, InputError, "speed: no value for 'b'"),

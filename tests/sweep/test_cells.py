@@ -121,6 +121,12 @@ def test_the_middle_of_each_cell_is_in_it_however_it_is_turned(side):
     np.testing.assert_allclose(pk.so3.log(relative), [0, 0, 0.4 * np.pi], atol=1e-12)
 
 
+def test_a_square_has_at_most_1024_tiles_along_a_side():
+    assert Cells.box([0] * 3, [1] * 3, 1.0, side=1024).tiles == 12 * 1024**2
+    with pytest.raises(InputError, match="side"):
+        Cells.box([0] * 3, [1] * 3, 1.0, side=1025)
+
+
 def test_a_batch_of_poses_keeps_its_shape():
     assert ONE.find(np.tile(np.eye(4), (2, 3, 1, 1))).tolist() == [[0] * 3] * 2
 

@@ -77,6 +77,7 @@ def test_coordinates_without_limits_have_one_turn():
     ("make", "error", "words"),
     [
         (lambda: Random.of(two_links(), 0), InputError, "count: expected a whole number from 1"),
+        (lambda: Random.of(two_links(), 2**56), InputError, "count: expected a whole number"),
         (lambda: Random.of(two_links(), 10, seed=-1), InputError, "seed"),
         (lambda: Grid.of(two_links(), [2, 3, 4]), ShapeError, "expected one or 2 numbers, got 3"),
         (lambda: Grid.of(two_links(), [2, 0]), InputError, "counts"),
@@ -87,6 +88,11 @@ def test_coordinates_without_limits_have_one_turn():
 def test_what_cannot_be_sampled_is_refused(make, error, words):
     with pytest.raises(error, match=words):
         make()
+
+
+def test_as_many_samples_as_64_coordinates_of_each_can_be_counted():
+    assert Random.of(two_links(), 2**56 - 1).count == 2**56 - 1
+    assert Grid.of(two_links(), 2**27).count == 2**54
 
 
 def test_an_arm_whose_joints_cut_corners_off_its_coordinates_is_refused():

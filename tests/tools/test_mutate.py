@@ -6,10 +6,13 @@ from __future__ import annotations
 
 import ast
 import functools
+import math
 import random
 import runpy
+import shutil
 import sys
 import textwrap
+import time
 from collections import Counter
 from pathlib import Path
 
@@ -25,6 +28,7 @@ from tools.mutate import campaign, equivalent, kernels, names, report, sample, s
 from tools.mutate.campaign import BrokenSuite, Campaign, Outcome, kept
 from tools.mutate.mutants import Mutant, mutants_of, paths, room
 from tools.mutate.near import NEAR
+from tools.mutate.server import EPOCH
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
@@ -254,6 +258,7 @@ def test_every_module_has_tests_that_exist():
         ("engine/ik_codes", "engine/ik_kernels"),
         ("model/tree_arrays", "model/link_program"),  # by the tests that import it
         ("solve/measurement", "solve/measurements"),
+        ("formulas/circle_roots", "formulas/circle_roots"),  # before all others of the room
     ],
 )
 def test_the_tests_near_a_module_are_found_by_name_and_by_import(module, test):
@@ -359,11 +364,13 @@ def test_a_mutant_of_the_engine_finds_no_kernel_that_it_is_compiled_into():
     assert own < set(suites.kernels_of(names.module("engine/ik_kernels")))  # which it calls
 
 
-def test_every_kernel_of_the_engine_is_made_ready(monkeypatch):
-    ready: set[str] = set()
-    monkeypatch.setattr(Kernel, "ready", lambda self: ready.add(self.function.__name__))
-    kernels.main()
-    assert ready == {
+def test_every_kernel_of_the_engine_is_made_ready_by_one_of_the_processes(monkeypatch):
+    ready: list[Kernel] = []
+    monkeypatch.setattr(Kernel, "ready", lambda self: ready.append(self))
+    kernels.main(0, 2)
+    kernels.main(1, 2)
+    assert len({id(kernel) for kernel in ready}) == len(ready)
+    assert {kernel.function.__name__ for kernel in ready} == {
         name for path in SOURCES if room(path) == "engine" for name in suites.kernels_of(path)
     }
 
@@ -371,12 +378,19 @@ def test_every_kernel_of_the_engine_is_made_ready(monkeypatch):
 def test_of_this_user_s_cache_no_arm_s_code_is_taken(tmp_path, monkeypatch):
     own = tmp_path / "own"
     own.mkdir()
-    for name in ("so3_log-1.kernel", "arm-2.kernel", "notes.txt"):
+    for name in (
+        "so3_log-1.kernel",
+        "so3_log-2.kernel",
+        "of_a_test-2.kernel",
+        "arm-2.kernel",
+        "notes.txt",
+    ):
         (own / name).write_text(name)
     monkeypatch.setattr(kernels, "_user_cache", lambda root: own)
-    monkeypatch.setattr(kernels.subprocess, "run", lambda *arguments, **more: None)
+    monkeypatch.setattr(kernels, "_making", lambda root, place: {"so3_log-1.kernel"})
     place = kernels.prepared(tmp_path, tmp_path / "known")
-    assert [file.name for file in place.iterdir()] == ["so3_log-1.kernel"]
+    # nor a kernel of another source
+    assert {file.name for file in place.iterdir()} == {"so3_log-1.kernel", "of_a_test-2.kernel"}
 
 
 CALCULATOR = "def double(x):\n    return x * 2\n\n\ndef forever(n):\n    while n > 0:\n        n -= 1\n    return n\n"
@@ -413,13 +427,25 @@ def small(tmp_path, monkeypatch):
     return root
 
 
-def run(root: Path, choose=lambda m: True, listed: frozenset[str] = frozenset()) -> dict[str, str]:
+def run(
+    root: Path,
+    choose=lambda m: True,
+    listed: frozenset[str] = frozenset(),
+    until: float = math.inf,
+) -> dict[str, str]:
     """The outcomes of the calculator's mutants, by the line that each makes."""
     found: dict[str, str] = {}
     mutants = [m for m in mutants_of("poekin/calculator.py", CALCULATOR) if choose(m)]
     sources = {"poekin/calculator.py": CALCULATOR}
+    shutil.rmtree(root.parent / "copies", ignore_errors=True)
     campaign = Campaign(
-        root, root.parent / "copies", sources, set(listed), root.parent / "results.jsonl", False
+        root,
+        root.parent / "copies",
+        sources,
+        set(listed),
+        root.parent / "results.jsonl",
+        quick=False,
+        until=until,
     )
     campaign.run(mutants, 1, lambda m, outcome: found.update({m.new: str(outcome["outcome"])}))
     return found
@@ -434,6 +460,24 @@ def test_a_mutant_that_a_test_sees_is_caught_and_one_that_none_sees_survives(sma
     tests = [f"tests/test_calculator.py::test_{name}" for name in ("double", "forever")]
     assert {outcome["by"] for outcome in results.values()} == {"", *tests}
     assert (small / "poekin/calculator.py").read_text(encoding="utf-8") == CALCULATOR
+
+
+def test_no_mutant_takes_the_bytecode_of_another_of_the_same_length(small):
+    # written within one second, they differ by nothing that Python asks about a file but by its time
+    lines = [f"return x * {k}" for k in (3, 1)]
+    assert run(small, lambda m: m.new in lines) == dict.fromkeys(lines, "caught")
+    place = small.parent / "copies" / "tree0" / "poekin"
+    assert list(place.rglob("calculator.*.pyc"))
+    compiled = [*place.rglob("__init__.*.pyc"), *place.rglob("calculator.*.pyc")]
+    times = [int.from_bytes(file.read_bytes()[8:12], "little") - EPOCH for file in compiled]
+    assert times[0] == 0 < times[1]
+
+
+def test_after_the_time_that_is_given_no_mutant_is_begun(small):
+    assert run(small, until=time.monotonic()) == {}
+    assert run(small, lambda m: m.new == "return x * 3", until=time.monotonic() + 600) == {
+        "return x * 3": "caught"
+    }
 
 
 def test_a_loop_without_an_end_is_ended(small, monkeypatch):
@@ -553,6 +597,17 @@ def test_what_the_near_tests_let_through_is_tried_on_all_only_where_the_sample_f
     # all: each is tried on all tests
     assert command.main(["--sample", str(len(keys) + 1), "--afresh"]) == 0
     assert ran == [(len(keys), False)]
+
+
+def test_a_run_without_time_for_any_mutant_proves_nothing(tmp_path, monkeypatch, capsys):
+    _project(tmp_path, monkeypatch)
+    until: list[float] = []
+    monkeypatch.setattr(command, "_run", lambda *_, **more: until.append(more["until"]))
+    begin = time.monotonic()
+    assert command.main(["--sample", "60", "--afresh", "--seconds", "50"]) == 1
+    assert "no time for any mutant" in capsys.readouterr().out
+    # a fifth is kept for what the tests near a module let through
+    assert 40 <= until[0] - begin <= 40 + time.monotonic() - begin
 
 
 def test_a_large_sample_is_judged_as_well():

@@ -6,7 +6,9 @@ there its mutants are new. An edit elsewhere makes none new: what was caught by 
 weakened or removed since still counts as caught, and so does what was caught while another module
 was as it was. The run says how many outcomes are of earlier runs; a figure to be relied upon is of
 one run with --afresh, which runs all the chosen ones again.
-A sample holds of each room in proportion; `sample.py` says when it fails.
+A sample holds of each room in proportion; `sample.py` says when it fails. With --seconds mutants are
+run in an order drawn by the seed, so that those which the time is enough for are a sample too; the
+last fifth of it is kept for what the tests near a module let through.
 """
 
 from __future__ import annotations
@@ -14,6 +16,8 @@ from __future__ import annotations
 import argparse
 import functools
 import importlib.util
+import math
+import random
 import sys
 import tempfile
 import time
@@ -49,6 +53,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--operator", help="only operators whose name holds this, as messages/")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument(
+        "--seconds",
+        type=float,
+        default=math.inf,
+        help="begin no further mutant after so many seconds of the run",
+    )
+    parser.add_argument(
         "--afresh", action="store_true", help="run again what earlier runs have tried"
     )
     parser.add_argument(
@@ -57,6 +67,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--report", action="store_true", help="run nothing: say what is known")
     parser.add_argument("--count", action="store_true", help="run nothing: count the mutants")
     said = parser.parse_args(arguments)
+    begin = time.monotonic()
 
     sources = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
     rooms = {room(path) for path in sources}
@@ -82,23 +93,30 @@ def main(arguments: list[str] | None = None) -> int:
         waiting = [
             m for m in chosen if m.key not in outcomes or outcomes[m.key]["outcome"] == "passed"
         ]
+        if said.seconds < math.inf:
+            random.Random(said.seed).shuffle(waiting)
         run = functools.partial(
             _run, sources=sources, listed=set(listed), file=file, outcomes=outcomes, said=said
         )
         sampled = said.sample is not None and len(chosen) == said.sample
         try:
-            run(waiting, quick=said.quick or sampled)
+            share = 0.8 if sampled and not said.quick else 1.0
+            run(waiting, quick=said.quick or sampled, until=begin + share * said.seconds)
             if sampled and not said.quick and _faults(counted(chosen, outcomes, listed), mutants):
                 print(
                     "too many are let through by the tests near their modules: all tests are tried on those"
                 )
-                run([m for m in chosen if kind(m, outcomes, listed) == "survived"], quick=False)
+                survivors = [m for m in chosen if kind(m, outcomes, listed) == "survived"]
+                run(survivors, quick=False, until=begin + said.seconds)
         except BrokenSuite as fault:
             print(
                 f"the tests do not hold by themselves, so they prove nothing: {fault}",
                 file=sys.stderr,
             )
             return 2
+        if waiting and not any(m.key in outcomes for m in chosen):
+            print("FAILED: there was no time for any mutant")
+            return 1
     if said.count:
         outcomes = {}
     elif earlier:
@@ -116,6 +134,7 @@ def _run(
     outcomes: dict[str, Outcome],
     said: argparse.Namespace,
     quick: bool,
+    until: float,
 ) -> None:
     start = last = time.monotonic()
     done = 0
@@ -131,13 +150,14 @@ def _run(
             print(f"{done} of {len(waiting)} in {last - start:.0f} s", flush=True)
 
     with tempfile.TemporaryDirectory(prefix="mutants-") as place:
-        campaign = Campaign(ROOT, Path(place), sources, listed, file, quick)
+        campaign = Campaign(ROOT, Path(place), sources, listed, file, quick, until)
         campaign.run(waiting, max(1, min(said.workers, len(waiting))) if waiting else 0, finished)
-    used = sum(
-        float(str(outcomes[m.key].get("processor", 0))) for m in waiting if m.key in outcomes
-    )
-    each = f", {used / done:.1f} s of a processor each" if done else ""
-    print(f"{done} mutants in {time.monotonic() - start:.0f} s, {said.workers} at a time{each}")
+    each = f", {campaign.processor / done:.1f} s of a processor each" if done else ""
+    took = f"{time.monotonic() - start:.0f} s, {said.workers} at a time{each}"
+    if done < len(waiting):
+        print(f"{done} of {len(waiting)} mutants in {took}; there was no time for the others")
+    else:
+        print(f"{done} mutants in {took}")
 
 
 def _judged(

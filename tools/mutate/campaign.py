@@ -6,12 +6,14 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import os
 import queue
 import shutil
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -87,7 +89,10 @@ def kept(file: Path) -> dict[str, Outcome]:
 
 
 class Campaign:
-    """Mutants to run with some workers; `finished` is called with each one and its outcome."""
+    """Mutants to run with some workers; `finished` is called with each one and its outcome. None is
+    begun after `until`, of the monotonic clock. `processor` is what all of it took, s: tests that are
+    seen to pass without a mutant too.
+    """
 
     def __init__(
         self,
@@ -97,6 +102,7 @@ class Campaign:
         listed: set[str],
         file: Path,
         quick: bool,
+        until: float = math.inf,
     ):
         self.root, self.place, self.sources, self.listed, self.file = (
             root,
@@ -106,6 +112,8 @@ class Campaign:
             file,
         )
         self.quick = quick
+        self.until = until
+        self.processor = 0.0
         self._jobs: queue.SimpleQueue[Mutant] = queue.SimpleQueue()
         self._known: Path | None = None
         self._killers: dict[tuple[str, str], list[str]] = {}
@@ -144,17 +152,17 @@ class Campaign:
 
     def _taken(self) -> Iterator[Mutant]:
         with contextlib.suppress(queue.Empty):
-            while not self._faults:
+            while not self._faults and time.monotonic() < self.until:
                 yield self._jobs.get_nowait()
 
     def _judged(self, server: Server, mutant: Mutant) -> Outcome:
         source = mutant.applied(self.sources[mutant.path])
         killers = self._killers.setdefault((mutant.path, mutant.definition), [])
         sessions = [*([test] for test in killers[:_KEPT]), *suites.near(mutant.path)]
-        outcome = server.ask(mutant.path, source, sessions)
+        outcome = self._asked(server, mutant.path, source, sessions)
         if outcome["outcome"] == "passed" and mutant.key not in self.listed and not self.quick:
             sessions = [suites.whole(mutant.path)]
-            outcome = server.ask(mutant.path, source, sessions)
+            outcome = self._asked(server, mutant.path, source, sessions)
         if outcome["outcome"] != "passed":
             by = str(outcome["by"])
             self._hold(server, mutant.path, by, sessions)
@@ -168,13 +176,21 @@ class Campaign:
             **outcome,
         }
 
+    def _asked(
+        self, server: Server, path: str, source: str | None, sessions: list[list[str]]
+    ) -> Outcome:
+        outcome = server.ask(path, source, sessions)
+        with self._lock:
+            self.processor += float(str(outcome["processor"]))
+        return outcome
+
     def _hold(self, server: Server, path: str, by: str, sessions: list[list[str]]) -> None:
         """See once that what has caught a mutant passes without one, run in the same way."""
         alone = [by] if "::" in by else [by, "--collect-only"] if by.endswith(".py") else None
         what = f"{suites.mode(path).value}: {alone or sessions}"
         if what in self._sound:
             return
-        outcome = server.ask(path, None, [alone] if alone else sessions)
+        outcome = self._asked(server, path, None, [alone] if alone else sessions)
         if outcome["outcome"] != "passed":
             raise BrokenSuite(f"without any mutant {outcome['by'] or by}: {outcome['outcome']}")
         self._sound.add(what)

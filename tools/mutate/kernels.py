@@ -25,22 +25,31 @@ from .suites import Mode
 
 TAKING = (Mode.WARM, Mode.SHARED)
 _OF_AN_ARM = "arm-"
+_PROCESSES = 2  # each compiles on one processor
 
 
-def main() -> None:
-    """Make every kernel of the package ready, in the cache that POEKIN_CACHE_DIR names."""
+def main(begin: int = 0, step: int = 1) -> None:
+    """Make the kernels of the package ready, in the cache that POEKIN_CACHE_DIR names: of their row
+    every `step`-th one. Names the files that hold them, one a line.
+    """
     from poekin import engine
+    from poekin.engine.jit import cache
     from poekin.engine.jit.kernel import Kernel
 
+    found: dict[int, Kernel] = {}
     for info in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}."):
         for value in vars(importlib.import_module(info.name)).values():
             if isinstance(value, Kernel):
-                value.ready()
+                found[id(value)] = value
+    for kernel in list(found.values())[begin::step]:
+        kernel.ready()
+    for file in sorted(cache.used):
+        print(file.name)
 
 
 def prepared(root: Path, place: Path) -> Path:
-    """A cache in `place` with every kernel of the package; what this user's own cache has is
-    copied.
+    """A cache in `place` with every kernel of the package, each once; what this user's own cache has
+    is copied.
     """
     place.mkdir(mode=0o700)
     known = _user_cache(root)
@@ -48,11 +57,40 @@ def prepared(root: Path, place: Path) -> Path:
         if not entry.name.startswith(_OF_AN_ARM):
             with contextlib.suppress(OSError):
                 shutil.copy2(entry, place)
-    settings = {**os.environ, "POEKIN_CACHE_DIR": str(place), "PYTHONPATH": str(root)}
-    subprocess.run(
-        [sys.executable, "-m", "tools.mutate.kernels"], cwd=root, env=settings, check=True
-    )
+    of_this_source = _making(root, place)
+    names = {_name(file) for file in of_this_source}
+    for entry in place.iterdir():  # each is linked for every mutant: none of another source
+        if entry.name not in of_this_source and _name(entry.name) in names:
+            entry.unlink()
     return place
+
+
+def _making(root: Path, place: Path) -> set[str]:
+    """The files of all kernels of the source, which are made by several processes at a time."""
+    settings = {**os.environ, "POEKIN_CACHE_DIR": str(place), "PYTHONPATH": str(root)}
+    command = [sys.executable, "-m", "tools.mutate.kernels"]
+    making = [
+        subprocess.Popen(
+            [*command, str(k), str(_PROCESSES)],
+            cwd=root,
+            env=settings,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for k in range(_PROCESSES)
+    ]
+    of_this_source: set[str] = set()
+    for process in making:
+        said, _ = process.communicate()
+        if process.returncode:
+            raise subprocess.CalledProcessError(process.returncode, process.args)
+        of_this_source.update(said.split())
+    return of_this_source
+
+
+def _name(file: str) -> str:
+    """The name of the kernel that an entry of the cache holds."""
+    return file.rpartition("-")[0]
 
 
 def _user_cache(root: Path) -> Path | None:
@@ -75,7 +113,7 @@ def offered(
     place.mkdir(mode=0o700)
     try:
         for entry in known.iterdir() if known and mode in TAKING else ():
-            if entry.name.rpartition("-")[0] not in without:
+            if _name(entry.name) not in without:
                 os.link(entry, place / entry.name)  # an entry is never written to, only replaced
         yield str(place)
     finally:
@@ -83,4 +121,4 @@ def offered(
 
 
 if __name__ == "__main__":
-    main()
+    main(*map(int, sys.argv[1:]))

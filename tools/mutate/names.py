@@ -8,7 +8,7 @@ it a folder: `formats/dh/`.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path, PurePosixPath
 
@@ -59,14 +59,22 @@ def among(names: str, path: str) -> bool:
     return any(_within(module(name), path) for name in names.split())
 
 
-def longest(table: Mapping[str, str], path: str) -> list[str]:
-    """Arguments of pytest for a module, by the entry of a table whose path is the longest."""
+def longest(table: Mapping[str, str], path: str, called_like: Iterable[str] = ()) -> list[str]:
+    """Arguments of pytest for a module, by the entry of a table whose path is the longest.
+
+    In a folder's entry `own` stands for the files that are called like the module, then the folder.
+    """
     rows = [(name, tests) for names, tests in table.items() for name in names.split()]
     fitting = [row for row in rows if _within(module(row[0]), path)]
     if not fitting:
         return []
     own, tests = max(fitting, key=lambda row: len(module(row[0])))
-    return list(dict.fromkeys(argument(own if word == OWN else word) for word in tests.split()))
+    found: list[str] = []
+    for word in tests.split():
+        if word == OWN and own.endswith("/"):
+            found += called_like
+        found.append(argument(own if word == OWN else word))
+    return list(dict.fromkeys(found))
 
 
 def _within(place: str, path: str) -> bool:

@@ -1,7 +1,7 @@
 """Tests that a mutant meets first, where those called like its module are not the quickest.
 
 A key holds names of modules or of folders, a value names of tests; `names` says what they mean.
-`own` stands for the tests that are called like the module.
+`own` stands for the tests that are called like the module; of a folder, those of all of it follow.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _SMALL_ANGLES = (
 )
 _ANGLES = f"{_SMALL_ANGLES} {_KINDS}"
 _REFUSALS = "model/refusals"
-_ROBOTS = f"{_REFUSALS} model/tree model/robot model/robot_coordinates"
+_ROBOTS = f"{_REFUSALS} model/tree model/robot model/robot_coordinates model/peer_names"
 _EMITTED = "formats/emit_words formats/emit_python formats/emit_c cli/emit"
 _FRAMES = "solve/measurements solve/shared_frames"
 _POINTS = "solve/measurements solve/data solve/noise solve/simulated solve/choose"
@@ -85,6 +85,7 @@ NEAR = {
     "model/normals": "model/axis_walk model/idealised model/hp formats/dh_values formats/dh",
     "model/provenance model/robot model/tree": _ROBOTS,
     "model/screw": f"model/screw_values own {_REFUSALS} model/pitches model/checks {CHAINS}",
+    "model/unit_screws": f"model/screw_values model/pitches {_REFUSALS}",
     "model/structure": "own model/compiled",
     "formats/dh/": f"{DH} formats/dh_calibrated --deselect={_SLOW}",
     "formats/erd": "formats/load",
@@ -124,6 +125,7 @@ NEAR = {
     "solve/problem": f"{_FRAMES} solve/refusals solve/fitting solve/calibrate solve/choose",
     "analysis/axes analysis/shapes": _AXES,
     "analysis/axis_lines": f"own analysis/lines {_COMPARES}",
+    "analysis/compare/compare": f"{_COMPARES} analysis/length_unit",
     "analysis/comparison": f"analysis/messages {_COMPARES}",
     "analysis/count analysis/count_methods": _COUNTS,
     "analysis/count_scalars analysis/count_table": _COUNTS,

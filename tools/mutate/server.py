@@ -9,8 +9,10 @@ kernels that are compiled already, or "".
 from __future__ import annotations
 
 import contextlib
+import functools
 import gc
 import importlib
+import itertools
 import json
 import os
 import resource
@@ -43,8 +45,10 @@ SETTINGS = {
 }
 KEY = "MUTANTS_SOURCE_KEY"
 PLUGINS = ("_hypothesis_pytestplugin", "pytest_timeout", *(f"no:{name}" for name in _NOT_NEEDED))
-# when the files of a copy were written: no bytecode of theirs can pass for that of a mutant
+# when the files of a copy were written; each mutant a second later than the one before it, so that no
+# bytecode can pass for that of another text
 EPOCH = 1_000_000_000
+_SECONDS_LATER = itertools.count(1)
 _MEMORY = 4 * 2**30
 _WALL = 1800.0  # s, of one run of pytest: only a child that sleeps gets there
 
@@ -71,6 +75,7 @@ def main() -> None:
         print(json.dumps(answer), flush=True)
 
 
+@functools.cache
 def _source_key(tree: Path) -> str:
     """The cache's key of the source as it is; asked in a child, as this process is to load nothing
     of the package.
@@ -93,9 +98,11 @@ def answered(
     try:
         if file and source is not None:
             file.write_text(source, encoding="utf-8")
+            written = EPOCH + next(_SECONDS_LATER)
+            os.utime(file, (written, written))
         answer = {"outcome": "passed", "by": ""}
         for arguments in sessions:
-            found = _session(tree, arguments, source is not None, settings)
+            found = _session(tree, arguments, settings)
             if found["outcome"] != "passed":
                 answer = found
                 break
@@ -113,15 +120,13 @@ def _of_children() -> float:
     return usage.ru_utime + usage.ru_stime
 
 
-def _session(
-    tree: Path, arguments: list[str], mutated: bool, settings: dict[str, str]
-) -> dict[str, str]:
+def _session(tree: Path, arguments: list[str], settings: dict[str, str]) -> dict[str, str]:
     """One run of pytest in a child: what came of it, and by which test."""
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
         os.close(reading)
-        _set(settings, mutated)
+        _set(settings)
         _judge(tree, arguments, writing)
     os.close(writing)
     in_time = bool(select.select([reading], [], [], _WALL)[0])
@@ -139,12 +144,9 @@ def _session(
     return {"outcome": "caught", "by": f"the interpreter ended (status {status})"}
 
 
-def _set(settings: dict[str, str], mutated: bool) -> None:
-    """In the child: the environment of what it runs and starts; no bytecode of a mutant is kept."""
+def _set(settings: dict[str, str]) -> None:
+    """In the child: the environment of what it runs and starts."""
     os.environ.update(settings)
-    if mutated:
-        sys.dont_write_bytecode = True
-        os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
     with contextlib.suppress(ImportError):
         from numba.core import config
 

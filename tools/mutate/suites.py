@@ -129,7 +129,7 @@ def _kernels_in(path: str) -> Iterator[str]:
 
 def near(path: str) -> list[list[str]]:
     """Arguments of pytest's first two runs for a module: the quickest file, and the others."""
-    files = names.longest(NEAR, path) or _called_like(path)
+    files = names.longest(NEAR, path, _own_tests(path)) or _called_like(path)
     return [[*part, *_apart(path)] for part in (files[:1], files[1:]) if part]
 
 

@@ -318,9 +318,8 @@ def _accepted(first, second, margin, share):
     c, s, here = first
     x, y, there = second
     zero = 0.0 * margin
-    one = 1.0 + zero
-    also = is_rounding(share * there, one)
-    if is_rounding(share * here, one):
+    also = is_rounding(share * there, 1.0)
+    if is_rounding(share * here, 1.0):
         if also:
             return c, s, x, y, max(margin, zero)
         return c, s, c, s, zero
@@ -346,7 +345,7 @@ def _laguerre(Q, c, s, share):
     """
     value, slope, bend = derivatives(Q, c, s)
     for _ in range(_SHARPENED):
-        if is_rounding(share * value, 1.0 + 0.0 * value):
+        if is_rounding(share * value, 1.0):
             break
         t = _laguerre_step(value, slope, bend)
         x, y = _turned(c, s, t)

@@ -36,7 +36,7 @@ def roots(a, b, d):
     if margin > 0.0:
         w = elementary.sqrt((r - d) * (r + d))
     else:
-        if is_rounding(_DOUBLE * margin, 1.0 + w):
+        if is_rounding(_DOUBLE * margin, 1.0):
             margin = w
         elif margin < -1.0:
             margin = -1.0 + w

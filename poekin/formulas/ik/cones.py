@@ -44,7 +44,7 @@ def roots(k, a, m, b):
     gamma = 0.0 * size
     if margin > 0.0:
         gamma = elementary.sqrt(rest / dot(out, out))
-    elif is_rounding(_DOUBLE * margin * pp * mm, 1.0 + gamma):
+    elif is_rounding(_DOUBLE * margin * pp * mm, 1.0):
         margin = gamma
     out = scale(gamma, out)
     first = rotation_pair(k, a, m, b, add(inside, out))

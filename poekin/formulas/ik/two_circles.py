@@ -146,7 +146,7 @@ def _of_longer(row, left):
     size = elementary.sqrt(a * a + a2 * a2)
     rest = elementary.sqrt(b * b + b2 * b2)
     none = 0.0 * size
-    c = 1.0 + none
+    c = 1.0
     s = none
     if size > 0.0:
         v = a / size
@@ -164,7 +164,7 @@ def _of_longer(row, left):
     x, y, u, v, margin = circle_line.roots(b, b2, d)
     if margin > 0.0:
         margin = 0.0 * margin
-    if not is_rounding(_DEPENDENT * left, 1.0 + none):
+    if not is_rounding(_DEPENDENT * left, 1.0):
         margin = -1.0 + 0.0 * left
     return (
         (c, s, x, y, margin),
@@ -181,7 +181,7 @@ def _canonical(first, second, apart):
     f, f2, g, g2, e = small
     alpha = elementary.sqrt(a * a + a2 * a2)
     none = 0.0 * alpha
-    v = (1.0 + none, none)
+    v = (1.0, none)
     if alpha > 0.0:
         v = (a / alpha, a2 / alpha)
     delta = elementary.sqrt(g * g + g2 * g2)
@@ -246,7 +246,7 @@ def _conic(pair, other, square, radius, apart):
     y = -2.0 * gamma * delta * e * radius
     zero = 0.0 * rest
     size = abs(turned) + abs(x) + abs(y) + abs(rest)
-    if is_rounding(_NOTHING * apart * size, 1.0 + zero):
+    if is_rounding(_NOTHING * apart * size, 1.0):
         return zero, zero, zero, zero, zero, zero
     return turned * square, zero, -turned * square, x, y, rest
 
@@ -293,7 +293,7 @@ def _sharpened(first, second, root):
     e, f = _residuals(first, second, c, s, x, y)
     size = abs(e) + abs(f)
     for _ in range(_SHARPENED):
-        if is_rounding(0.25 * size, 1.0 + 0.0 * size):
+        if is_rounding(0.25 * size, 1.0):
             break
         e_c, e_x = _slopes(first, c, s, x, y)
         f_c, f_x = _slopes(second, c, s, x, y)
@@ -313,7 +313,7 @@ def _sharpened(first, second, root):
         x = u
         y = v
     if margin <= 0.0:
-        rounding = is_rounding(_DOUBLE * size, 1.0 + 0.0 * size)
+        rounding = is_rounding(_DOUBLE * size, 1.0)
         margin = 0.0 * size if rounding else least(margin, -size)
     return c, s, x, y, margin
 

@@ -267,9 +267,7 @@ def _solved(
     parallel: bool,
 ) -> AllSolutions:
     fast = question.units.fast
-    rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
-    if question.n_swivel > 1:
-        rows = np.repeat(rows, question.n_swivel, axis=0)
+    rows = np.repeat(wanted.reshape(-1, 4, 4), question.n_swivel, axis=0)
     finite = np.asarray(np.isfinite(rows).all(axis=(1, 2)))
     numbers = np.flatnonzero(finite)
     stages = solvers_for(fast.chain, question.values[finite], question.free, method)

@@ -96,6 +96,10 @@ def a_tuple_written(a, out):
     x[0] = 1.0  # type: ignore
 
 
+def an_attribute(a, out):
+    out[0], a.size = (a[0], a[1])
+
+
 def keyword(a, out):
     out[0] = abs(x=a[0])  # type: ignore[call-arg]
 
@@ -119,6 +123,7 @@ REFUSED = {
     not_always: ("def sometimes", "a function that may end without its value"),
     itself: ("return falling", "a call of falling by itself"),
     a_tuple_written: ("x[0] = 1.0", "writing to x[0]"),
+    an_attribute: ("a.size", "unpacking into a.size"),
     keyword: ("abs(", "a call with a keyword here"),
     a_lambda: ("(lambda", "the name lambda x: x"),
 }

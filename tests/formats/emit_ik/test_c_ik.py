@@ -7,6 +7,7 @@ import functools
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -220,6 +221,21 @@ def test_out_of_reach_and_of_what_is_no_pose_there_is_no_solution(build):
     stretched[:3, :3] *= 1.01
     for wrong in (away, np.full((4, 4), np.nan), np.zeros((4, 4)), stretched):
         assert len(built(wrong)) == 0
+
+
+def test_places_without_a_branch_are_not_looked_at(build_once):
+    whole = pk.load("ur5e").chain()
+    chain = pk.Chain.from_space(whole.screws[-1:], whole.home)
+    source = emit.c_ik(chain, name="one")
+    head = "static void one_ik_placed(const double *branch, double *T)\n{\n"
+    text = source.source.replace(head, f"int looked_at;\n{head}    looked_at++;\n")
+    built = build_once(replace(source, source=text))
+    looked_at = ctypes.c_int.in_dll(ctypes.CDLL(str(built.folder / "unit.so")), "looked_at")
+    T = chain.fk([0.3])
+    assert len(built(T)) == looked_at.value == 1
+    T[2, 3] += 1.0
+    assert len(built(T)) == 0
+    assert looked_at.value == 1
 
 
 def test_where_a_wrist_is_stretched_one_solution_of_each_continuum_is_found(build):

@@ -22,6 +22,13 @@ ARMS = {
     "from other zeros": UR5.rezeroed(np.linspace(0.3, 1.1, 6)),
     "stanford": pk.load("stanford").chain(),
     "against its joints": pk.Chain.from_space(-UR5.screws, UR5.home),
+    # a sum of angles has a term of the other sign, and a further joint one too
+    "the elbow against its joint": pk.Chain.from_space(
+        UR5.screws * np.array([1, 1, -1, 1, 1, 1])[:, None], UR5.home
+    ),
+    "the third of three parallel joints against it": pk.Chain.from_space(
+        UR5.screws * np.array([1, 1, 1, -1, 1, 1])[:, None], UR5.home
+    ),
     "slides": SLIDES,
     "one joint": pk.Chain.from_space(UR5.screws[:1], UR5.home),
 }

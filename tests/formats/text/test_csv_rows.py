@@ -110,6 +110,16 @@ def test_many_rows_are_read_and_written_in_parts_and_each_part_is_told(monkeypat
     ]  # the characters of the rows
 
 
+@pytest.mark.parametrize("length", [400, 401])
+def test_of_a_path_messages_have_at_most_400_characters(length, tmp_path):
+    folder = tmp_path / ("d" * (200 - len(str(tmp_path)))) / ("e" * 150)
+    path = f"{folder}/{'f' * (length - len(str(folder)) - 1)}"
+    with pytest.raises(FileError) as refused, csv_rows.opened(path):
+        pass
+    assert len(path) == length
+    assert (path in str(refused.value)) == (length == 400)
+
+
 def test_a_name_in_the_header_obeys_no_terminal_and_breaks_no_line():
     assert (
         csv_rows.text(["a\nb", "\x1b[31m", "c,d"], np.ones((1, 3)))

@@ -56,6 +56,24 @@ def test_a_branch_far_outside_or_of_no_number_is_passed_over():
     assert len(selected(T, np.array([branch(q, -1e-3)]))) == 1
 
 
+@pytest.mark.parametrize("more", [0, 1])
+def test_a_branch_may_have_more_numbers_before_its_margin(more):
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    beside = [9.0] * more
+    assert len(selected(T, [[*q, *beside, 0.5]])) == 1
+    assert len(selected(T, [[*q, *beside, -0.5]])) == 0
+
+
+@pytest.mark.parametrize("beyond", [0.01, 0.1, 0.3])
+def test_out_of_reach_newton_s_rule_ends_without_a_solution(beyond):
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    farthest = max(np.linalg.norm(ARM.fk(x)[:3, 3]) for x in ARM.random(0, 2000))
+    T[:3, 3] *= (1.1 + beyond) * farthest / np.linalg.norm(T[:3, 3])
+    assert len(selected(T, np.array([branch(q)]))) == 0
+
+
 def test_a_half_turn_away_is_no_solution():
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
     T = ARM.fk(q)

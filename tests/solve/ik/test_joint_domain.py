@@ -49,6 +49,12 @@ def test_a_configuration_of_which_no_turn_is_within_the_limits_stays():
     )
 
 
+def test_a_turn_to_a_limit_itself_is_taken():
+    turn = np.full(2, 2 * np.pi)
+    for limits, q in (([0, 7], -turn), ([-7, 0], turn)):
+        np.testing.assert_array_equal(room(limits=[limits] * 2).wrapped(q, np.zeros(2)), 0.0)
+
+
 def test_a_turn_that_rounding_would_take_beyond_a_limit_is_not_taken():
     lower = np.random.default_rng(0).uniform(-6, 0, (500, 2))
     for low in lower:

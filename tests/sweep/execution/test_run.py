@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import pickle
+import re
 import subprocess
 import sys
 import threading
 from concurrent.futures import Future, ProcessPoolExecutor
-from itertools import pairwise
+from itertools import pairwise, permutations
 
 import numpy as np
 import pytest
@@ -18,7 +20,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError
 from poekin.sweep import Cells, Grid, Random, Sweep, run
-from poekin.sweep.execution.totals import Totals, part_of
+from poekin.sweep.execution.totals import SweepPart, Totals, part_of
 from tests.sweep.arms import bits, measured, slide, two_links
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -132,6 +134,14 @@ def test_an_executor_is_given_two_parts_for_each_worker(whole, workers, most):
     assert executor.open == 0
 
 
+def test_of_own_threads_each_has_two_parts_where_these_are_kept(tmp_path, monkeypatch, whole):
+    pool = Counting()
+    own = lambda threads, **_: contextlib.nullcontext(pool)  # noqa: E731
+    monkeypatch.setattr("poekin.sweep.execution.run.ThreadPoolExecutor", own)
+    assert bits(run(SWEEP, chunk=400, workers=3, store=tmp_path)) == whole
+    assert pool.most == 6
+
+
 @given(st.lists(st.integers(1, 2999), min_size=1, max_size=4, unique=True), st.randoms())
 @settings(max_examples=20)
 def test_parts_add_up_to_the_same_in_any_order(cuts, order):
@@ -224,6 +234,9 @@ def test_progress_is_told_up_to_the_end():
     told = []
     run(SWEEP, chunk=4000, workers=1, progress=lambda done, count: told.append((done, count)))
     assert told == [(4000, 10_001), (8000, 10_001), (10_001, 10_001)]
+    told.clear()
+    run(SWEEP, progress=lambda done, count: told.append((done, count)))
+    assert told == [(10_001, 10_001)]  # a part is of millions
 
 
 def test_an_error_of_one_thread_ends_all():
@@ -248,10 +261,34 @@ def test_options_that_cannot_be_used_are_refused(options, words):
         run(SWEEP, **options)
 
 
-def test_a_map_larger_than_the_memory_is_refused_before_it_begins():
-    cells = Cells.box([-1] * 3, [1] * 3, 0.001, side=2)
-    with pytest.raises(InputError, match=r"3.84e\+11 cells take .* GiB in 2 maps"):
-        run(Sweep(ARM, SWEEP.samples, cells), workers=1)
+@pytest.mark.parametrize("measure", ["manipulability", "reach"])
+def test_maps_larger_than_four_fifths_of_the_memory_are_refused_before_they_begin(
+    measure, monkeypatch
+):
+    sweep = Sweep(ARM, SWEEP.samples, CELLS, measure)
+    of_one = Totals(CELLS, measure == "manipulability")
+    size = 4 * sum(a.nbytes for a in (of_one.counts, of_one.best, of_one.attained))
+    # of three threads and of their sum
+    monkeypatch.setattr("poekin.sweep.execution.run._memory", lambda: size * 5 // 4)
+    assert run(sweep, workers=3).samples is sweep.samples
+    there = size * 5 // 4 - 2
+    monkeypatch.setattr("poekin.sweep.execution.run._memory", lambda: there)
+    words = (
+        f"sweep: {CELLS.count:.3g} cells take {size / 2**30:.3g} GiB in 4 maps, "
+        f"of {there / 2**30:.3g} GiB here; "
+    )
+    with pytest.raises(InputError, match=f"^{re.escape(words)}"):
+        run(sweep, workers=3)
+
+
+def test_of_equal_measures_that_parts_bring_in_any_order_the_first_sample_stays():
+    cells = Cells((0, 0, 0), 1.0, (1, 1, 1))
+    for order in permutations((7, 3, 5)):
+        totals = Totals(cells, True)
+        for number in order:
+            one = np.array([0])
+            totals.add(SweepPart(one, one + 1, np.array([2.0]), np.array([number]), 0))
+        assert totals.attained.tolist() == [3]
 
 
 def test_a_sweep_of_another_arm_s_samples_is_refused():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -24,6 +26,14 @@ def test_a_pose_that_was_sampled_is_found_and_one_out_of_reach_not():
     outside = np.eye(4)
     outside[0, 3] = 5.0
     assert MEASURED.query([far, outside]).tolist() == [0, 0]
+
+
+def test_every_cell_answers_for_its_centre():
+    counts = np.arange(1, COUNTED.cells.count + 1).reshape(COUNTED.counts.shape)
+    found = replace(COUNTED, counts=counts)
+    T = np.tile(np.eye(4), (*counts.shape, 1, 1))
+    T[..., :3, 3] = COUNTED.cells.centres()
+    np.testing.assert_array_equal(found.query(T), counts)
 
 
 def test_a_layer_is_that_of_the_place():
@@ -55,7 +65,7 @@ def test_capability_is_the_share_of_directions():
     assert set(np.unique(MEASURED.capability)) == {0.0, 1 / 12}
     assert MEASURED.capability_range == (pytest.approx(1 / 12), pytest.approx(1 / 12))
     assert COUNTED.capability_range is None
-    with pytest.raises(InputError, match="no directions"):
+    with pytest.raises(InputError, match=r"^capability: the sweep has no directions \(side=0\)$"):
         _ = COUNTED.capability
 
 

@@ -96,7 +96,11 @@ def test_a_calibration_has_the_covariance_of_its_poses():
 
 @pytest.mark.parametrize(
     ("parameters", "words"),
-    [("gains", "is a gain, whose error"), ("pitch", "a pitch is estimated")],
+    [
+        ("gains", "is a gain, whose error"),
+        ("pitch", "a pitch is estimated"),
+        ("backlash", "'backlash' is no error of a screw"),
+    ],
 )
 def test_a_calibration_of_what_no_screw_has_is_refused(parameters, words):
     arm = pk.load("ur5").chain()

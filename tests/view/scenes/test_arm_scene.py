@@ -20,9 +20,16 @@ from poekin.view.nodes import Cloud, Label, Node, Polyline, Triangles
 from poekin.view.scene import Scene, Slider
 from poekin.view.scenes.arm import arm_geometry, arm_nodes, arm_scene, arm_size
 from poekin.view.scenes.arm_parts import skeleton
-from poekin.view.scenes.arm_parts.axes import axis_nodes
+from poekin.view.scenes.arm_parts.axes import (
+    COVERED,
+    END_FRAME,
+    LINK_FRAME,
+    axis_nodes,
+    frame_nodes,
+)
 from poekin.view.scenes.arm_parts.geometry import ArmGeometry, opening_q
 from poekin.view.scenes.arm_parts.missing import left_out_words
+from poekin.view.scenes.arm_parts.of_robot import robot_geometry
 from poekin.view.scenes.arm_parts.skeleton import glyph_radii
 from tests.model.laws.chain_bounds import budget
 
@@ -154,6 +161,23 @@ def test_frames_are_where_the_robot_has_its_links():
         "left",
         "right",
     }
+
+
+@pytest.mark.parametrize("covered", [False, True])
+def test_a_frame_is_as_long_as_its_joint_and_the_base_and_the_first_tip_as_the_largest(covered):
+    arm = robot_geometry(odd_robot(), ["left", "free"])
+    radii = np.arange(1.0, len(arm.joints) + 1)
+    lengths = {}
+    for node in frame_nodes(arm, radii, 1.0, covered):
+        if isinstance(node, Triangles):
+            (frame,) = (one for one in arm.frames if one.name == node.attachment.name)
+            away = node.vertices - frame.pose[:3, 3]
+            lengths[frame.name] = np.linalg.norm(away, axis=1).max()
+    end = END_FRAME * radii[-1] * (COVERED if covered else 1.0)
+    joints = {arm.links[joint.child]: r for joint, r in zip(arm.joints, radii, strict=True)}
+    links = {name: LINK_FRAME * r for name, r in joints.items()}
+    still = {"free": LINK_FRAME * radii[-1]}  # a tip that no joint moves
+    assert lengths == pytest.approx(links | still | {"base": end, "left": end}, rel=1e-9)
 
 
 def test_the_tool_frame_of_a_chain_moves_with_its_last_body():

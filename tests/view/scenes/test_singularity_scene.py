@@ -46,6 +46,9 @@ def test_a_lost_translation_is_an_arrow_too_and_a_regular_arm_shows_what_would_b
         direction = found.singular_direction[3:]
         assert np.linalg.norm(np.cross(way, direction)) == pytest.approx(0, abs=1e-12)
         assert way @ direction > 0
+        # of a unit twist: the squares of its two parts are 1 together
+        lengths = [np.linalg.norm(part) for _, part in arrows(scene).values()]
+        assert np.linalg.norm(lengths) == pytest.approx(LENGTH * scene.size, rel=1e-9)
 
 
 def test_the_arrow_that_follows_the_sliders_is_not_drawn_beside_it():

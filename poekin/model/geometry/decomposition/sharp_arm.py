@@ -83,13 +83,6 @@ def _error(arm: Array, q: Array, T: Array) -> float:
     without any.
     """
     rows = branch_rows(arm, q.shape[1], T)
-    off = np.abs(rows[:, :, :-1] - q[:, None])
-    joints = arm[:6]
-    turns = joints[:, closed_arm.SLIDES] == 0
-    columns = joints[turns, closed_arm.COLUMN].astype(int)
-    angles = columns[columns >= 0]
-    turn = 2 * np.pi
-    angle_off = off[:, :, angles]
-    off[:, :, angles] = np.abs(angle_off - turn * np.round(angle_off / turn))
+    off = np.abs(rows[:, :, :-1] - q[:, None])  # angles are from -pi to pi in both
     worst = np.where(np.isnan(off), np.inf, off).max(axis=2)
     return float(worst.min(axis=1).max())

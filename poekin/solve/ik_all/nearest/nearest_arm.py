@@ -26,8 +26,7 @@ from .constrained_arm import ConstrainedArm, Motions, rounded_arm
 from .pose_bound import pose_bound
 
 _CONFIGURATIONS = 96
-_STEPS = 12  # at most; three or four are enough
-_SETTLED = 1e-9  # part of the mean square below which a step changes nothing
+_STEPS = 12  # at most; three to nine are enough, down to rounding
 
 
 @dataclass(frozen=True)
@@ -131,11 +130,9 @@ def nearest_arm(chain: Chain, family: Family) -> NearestArm:
     for _ in range(_STEPS):
         step = _step(fit, q, chain.reach)
         better = _fit(step, chain, q, wanted)
-        settled = fit.cost - better.cost <= _SETTLED * fit.cost
-        if better.cost < fit.cost:
-            fit = better
-        if settled:
+        if not better.cost < fit.cost:
             break
+        fit = better
     bound = pose_bound(chain, fit.chain)
     return NearestArm(
         chain=fit.chain,

@@ -77,6 +77,21 @@ def test_every_root_of_a_product_is_found_and_no_other(pairs, seed):
         assert (apart(roots, found[:, 0]).min(axis=1) <= 64 * 2e-16 / slopes + 1e-15).all()
 
 
+@pytest.mark.parametrize("k", [0, 3])
+@pytest.mark.parametrize("start, end", [(-0.3, 2), (0.3, 3)])
+def test_a_step_leaves_the_root_between_the_ends_of_a_smaller_bracket(k, start, end):
+    f = [0.0, 0.0, 1.0, *[0.0] * 14]  # sin, whose root in the middle of -1 and 1 is 0
+    rows = np.zeros((circle_roots.FIELDS, ROOM))
+    rows[:, k] = [1.0, 0.0, -1.0, 1.0, start, -1.0]  # the sign at the lower end is last
+    found = rows.ravel().tolist()
+    circle_roots.newton(f, found, k, ROOM)
+    after = np.reshape(found, rows.shape)
+    rows[end, k] = start
+    rows[4, k] = after[4, k]
+    np.testing.assert_array_equal(after, rows)  # the other end, and every other root, as it was
+    assert after[2, k] <= 0.0 <= after[3, k]
+
+
 @pytest.mark.parametrize("at", [0.0923, 0.0923 + pi / 4, 1.0, -3.0])
 def test_a_double_root_is_found_once_and_is_flat(at):
     # 1 - cos(x - at), at ends of arcs too, within rounding of its touching 0

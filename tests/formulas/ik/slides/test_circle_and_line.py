@@ -92,6 +92,13 @@ def test_there_are_as_many_roots_as_a_polynomial_has(seed):
     assert len(found(first, second)) == (roots.imag == 0).sum()
 
 
+def test_a_step_that_makes_the_residual_larger_is_not_taken():
+    # sin = 0 and t^2 = -1/10, to which no length is nearer than 0
+    first, second = (0.0, 1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0, -0.1)
+    root = (1.0, 0.0, 0.01, 0.0, 1.0)
+    assert circle_and_line._sharpened(first, second, root) == root
+
+
 def test_two_linear_equations_have_two_rows_and_two_that_are_none():
     first, second, _, _ = equations(3, 0.0)
     rows = circle_and_line.roots(first, second)

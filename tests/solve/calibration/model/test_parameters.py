@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 
 import numpy as np
 import pytest
@@ -283,3 +284,12 @@ def test_offsets_and_gains_leave_the_limits_and_the_constants_of_the_nominal_arm
         np.testing.assert_allclose(
             found.fk(q), ErrorModel(nominal, kinds, None).poses(np.array(p), q), rtol=0, atol=1e-14
         )
+
+
+@pytest.mark.parametrize("axis", np.eye(3))
+def test_a_direction_is_named_without_the_sign_of_what_rounds_to_0(axis):
+    for tilt in 1e-8 * np.random.default_rng(2).normal(size=(20, 3)):
+        # beside the axis of the base, of which the link frames are made
+        joints = [pk.screw.revolute(w, [0.3, 0, 0]) for w in (np.eye(3)[2], axis + tilt)]
+        found = ErrorModel(pk.Chain.from_space(joints, np.eye(4)), ("screws",), None)
+        assert [p.what for p in found.parameters if re.search(r"-0[,)]", p.what)] == []

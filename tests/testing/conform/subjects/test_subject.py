@@ -336,6 +336,12 @@ def test_the_names_of_laws_are_a_list_for_parametrize():
     assert law_names("benchmarks.subjects:Poekin") == [law.name for law in LAWS]
 
 
+def test_functions_of_any_kind_that_mean_nothing_are_named_and_other_values_are_not():
+    functions = {"plain": one, "still": staticmethod(one), "shared": classmethod(one)}
+    (note,) = Subject(kind(so3_exp=one, **functions, thickness=3)).misspelt
+    assert note.endswith("and held to nothing: 'plain', 'still', 'shared'")
+
+
 def test_a_name_that_looks_misspelt_is_said_with_what_may_be_meant():
     misspelt = {
         "exp_so3": one,
