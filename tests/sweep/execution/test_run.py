@@ -266,7 +266,7 @@ def test_maps_larger_than_four_fifths_of_the_memory_are_refused_before_they_begi
     measure, monkeypatch
 ):
     sweep = Sweep(ARM, SWEEP.samples, CELLS, measure)
-    of_one = Totals(CELLS, measure == "manipulability")
+    of_one = Totals(sweep)
     size = 4 * sum(a.nbytes for a in (of_one.counts, of_one.best, of_one.attained))
     # of three threads and of their sum
     monkeypatch.setattr("poekin.sweep.execution.run._memory", lambda: size * 5 // 4)
@@ -282,9 +282,9 @@ def test_maps_larger_than_four_fifths_of_the_memory_are_refused_before_they_begi
 
 
 def test_of_equal_measures_that_parts_bring_in_any_order_the_first_sample_stays():
-    cells = Cells((0, 0, 0), 1.0, (1, 1, 1))
+    sweep = Sweep(ARM, SWEEP.samples, Cells((0, 0, 0), 1.0, (1, 1, 1)), "manipulability")
     for order in permutations((7, 3, 5)):
-        totals = Totals(cells, True)
+        totals = Totals(sweep)
         for number in order:
             one = np.array([0])
             totals.add(SweepPart(one, one + 1, np.array([2.0]), np.array([number]), 0))
