@@ -284,6 +284,7 @@ def _unusable(lower: float | None, upper: float | None) -> str:
 
 
 def _mimic(fields: Fields, kind: str) -> Mimic | None:
+    """A <mimic> as data, which `model/tree/coupling.py` composes and `chain_between` puts in C."""
     element = fields.child("mimic")
     if element is None:
         return None

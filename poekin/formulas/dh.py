@@ -4,8 +4,8 @@ exponentials.
     f = K_0 e^{P_1 x_1} K_1 e^{P_2 x_2} K_2 ... e^{P_n x_n} K_n,  P = (0, 0, r; 0, 0, s)
 
 K_i = Rz(theta) Tz(d) Tx(a) Rx(alpha) is Paul's (distal) link i; of Craig's (proximal) convention it
-is the same expression with a and alpha of the next row. Then A_i = Ad(K_0 ... K_{i-1}) P_i and M =
-K_0 ... K_n.
+is the same expression with a and alpha of the next row; the paper calls it M_i. Then A_i =
+Ad(K_0 ... K_{i-1}) P_i and M = K_0 ... K_n.
 Accuracy: u n (R + largest |d|, |a|), u = 2^-53 (tests/formats/test_dh.py).
 Source: Park 1994, Section II, "Denavit-Hartenberg", with M_i <- e^{P_i x_0} M_i for a joint's
 offset x_0.

@@ -292,6 +292,17 @@ def test_a_frame_that_does_not_exist_is_refused(frame):
 
 
 @pytest.mark.parametrize(
+    ("theirs", "own"),
+    [("world", "space"), ("LOCAL", "body"), ("local_world_aligned", "hybrid"), ("spatial", None)],
+)
+def test_a_frame_as_pinocchio_calls_it_is_refused_with_its_name_here(theirs, own):
+    with pytest.raises(UnknownName) as refused:
+        arm().jacobian(np.zeros(3), theirs)
+    hint = f" (Pinocchio's {theirs.upper()} is {own!r})" if own else ""
+    assert str(refused.value).endswith(f"got {theirs!r}{hint}")
+
+
+@pytest.mark.parametrize(
     "screw, message",
     [
         (

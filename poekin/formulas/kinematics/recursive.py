@@ -1,7 +1,8 @@
 """Recursions over z-aligned link frames: the body Jacobian and the paper's V recursion.
 
 `links` are the poses f_{i-1,i} = M_i e^{S_i x_i}; r (`rotates`) and s (`slides`) make the screw S =
-(0, 0, r; 0, 0, s). The integers 0 and 1 in them are structure, not numbers, and cost nothing when
+(0, 0, r; 0, 0, s). `Chain.jacobian` runs `forward.tip_and_axes` and `columns`, which cost less;
+`pk.count` counts both. The integers 0 and 1 in them are structure, not numbers, and cost nothing when
 counted.
 Accuracy: rounding of the products, u (8 (n + 1) + 4 sum |x|), u = 2^-53, lengths times the reach
 (tests/model/test_chain_laws.py).

@@ -94,8 +94,9 @@ def parts(R):
     """(q, rest, 1 / |q|^2, sign): sign (q + rest) is a multiple of the quaternion (w, x, y, z), w
     >= 0, of R.
 
-    Where w = 0 (theta = pi) the component of largest magnitude is positive; this settles the sign
-    that Remark 1 leaves open.
+    Where w = 0 (theta = pi) the component of largest magnitude, the first of equals, is positive:
+    `_half_turn_axis` chooses it, which settles the sign that Remark 1 leaves open; `sign` is -1
+    where w < 0.
     """
     axis = _half_turn_axis(R)
     turned = _scale_columns(

@@ -29,6 +29,7 @@ FRAME_CODES: dict[object, int] = {
     "body": chain_kernels.BODY,
     "hybrid": chain_kernels.HYBRID,
 }
+_OF_PINOCCHIO = {"WORLD": "space", "LOCAL": "body", "LOCAL_WORLD_ALIGNED": "hybrid"}
 
 
 Fill = Callable[[Array, int | None, Array | None, Array | None], None]
@@ -172,8 +173,10 @@ def frame_code(chain: ChainData, frame: object) -> int:
         return FRAME_CODES[frame]
     n = len(chain.joint_names)
     if isinstance(frame, str):
+        own = _OF_PINOCCHIO.get(frame.upper())
+        hint = f" (Pinocchio's {frame.upper()} is {own!r})" if own else ""
         raise UnknownName(
-            f"frame: expected 'space', 'body', 'hybrid' or the index of a joint, got {quote(frame)}"
+            f"frame: expected 'space', 'body', 'hybrid' or the index of a joint, got {quote(frame)}{hint}"
         )
     if is_whole(frame, 0) and frame < n:
         return int(frame)

@@ -69,7 +69,9 @@ class Evidence:
 
     @property
     def complete(self) -> np.ndarray:
-        """Whether each target's solutions are surely all (N,)."""
+        """Whether each target's solutions are surely all (N,): a solver of the arm itself found them
+        (`sure`), and no search had to begin again, ran out of room or met a continuum.
+        """
         return self.sure & self.finite & (self.restarts == 0) & ~self.full & ~self.continuum
 
     def sentence(self, k: int) -> str:
