@@ -202,7 +202,7 @@ def test_a_hostile_name_changes_no_statement(name):
 def test_what_cannot_be_emitted_is_refused():
     with pytest.raises(
         UnknownName,
-        match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, got 'world' \(Pinocchio's WORLD is 'space'\)$",
+        match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, got 'world' ",
     ):
         emit.python(arm("panda"), "world")  # pyright: ignore[reportArgumentType]
     with pytest.raises(
