@@ -180,7 +180,7 @@ def test_measurements_on_standard_input_are_those_of_the_file(
 ):
     readings, *rest = words("calibrate")
     expected = poekin("calibrate", crane, readings, *rest)
-    assert expected[0] == 0
+    assert expected[0] == 1  # another crane's: the axes move farther than those of any arm are off
     content = Path(readings).read_text(encoding="utf-8")
     stdin(content)
     assert poekin("calibrate", crane, name, *rest) == expected
