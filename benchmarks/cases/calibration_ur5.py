@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,10 @@ VARIABLE = "POEKIN_UR5_DATA"
 PLACE = Path(__file__).resolve().parents[3] / "shared" / "data" / "ur5_laser_tracker"
 FIT, JUDGE = "grid_1000.csv", "test_20.csv"
 POINT = np.array([-1e-6, 90e-6, 31e-3])  # of the reflector in tool0, m
-PRIOR = {"rad": 1e-2, "m": 1e-2}  # the reflector is on the last axis, whose tilt it hardly shows
+PRIOR: dict[Literal["rad", "m"], float] = {
+    "rad": 1e-2,
+    "m": 1e-2,
+}  # the reflector is on the last axis, whose tilt it hardly shows
 GEOMETRY, TERMS = 0.101, 0.090  # bars: mean error on the positions kept aside, mm
 WITHIN = {0.68: (1.0, 12, 16), 0.95: (1.959964, 18, 20)}  # deviations, and bars of 20
 

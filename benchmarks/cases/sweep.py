@@ -47,7 +47,7 @@ def error(sweep: Sweep, found: SweepMap) -> float:
     """
     q = sweep.samples.configurations(np.arange(JUDGED))
     T = sweep.chain.fk(q)
-    lost = float(np.mean((found.query(T) == 0) & (sweep.cells.find(T) >= 0)))
+    lost = float(np.mean((found.query(T) == 0) & (found.cells.find(T) >= 0)))
     if found.best is None:
         return lost
     filled = np.flatnonzero(found.counts)[:JUDGED]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -15,8 +17,9 @@ from tests.solve.calibration.terms.sagging import arm, case
 CHAIN = arm("ur5")
 MADE = case(CHAIN, 0, sag=1e-3, count=120)
 PAYLOAD = np.linspace(0, 3, 120)
+KINDS: Any = ("screws", "home", "gains", *BUILDERS)
 EVERY = calibrate(
-    CHAIN, MADE.q, MADE.points, parameters=("screws", "home", "gains", *BUILDERS), folds=0,
+    CHAIN, MADE.q, MADE.points, parameters=KINDS, folds=0,
     on_rank_deficiency="fix", conditions={"payload": PAYLOAD},
 )  # fmt: skip
 SAG = calibrate(

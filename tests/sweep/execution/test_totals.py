@@ -90,5 +90,5 @@ def test_a_measure_that_is_beyond_all_sums_counts_as_the_largest(far):
     arm = two_links()
     samples = Random.of(arm, 100)
     sweep = Sweep(arm, samples, ONE, JointTravel((far, 0.0)), "mean")
-    (mean,) = np.ravel(run(sweep).best)
+    (mean,) = np.ravel(np.asarray(run(sweep).best))
     assert mean == pytest.approx(min(far, 2.0**22), abs=math.pi)

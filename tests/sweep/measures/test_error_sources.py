@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from poekin.sweep.measures.error_sources import (
 from tests.sweep.arms import slide, two_links
 from tests.sweep.measures.first_order import effects
 
-NONE = {"tilt": 0, "shift": 0, "offset": 0, "home_rotation": 0, "home_position": 0}
+NONE: dict[str, Any] = {"tilt": 0, "shift": 0, "offset": 0, "home_rotation": 0, "home_position": 0}
 ARM = pk.load("ur5e").chain(tip="tool0")
 ONE = Cells((-9.0, -9.0, -9.0), 18.0, (1, 1, 1))
 
@@ -41,7 +42,8 @@ def test_offsets_are_those_of_the_coordinates():
 
 
 def test_an_axis_is_tilted_and_shifted_across_itself_where_the_model_has_it():
-    sources = tolerance_sources(two_links(), **NONE | {"tilt": [0, 2], "shift": [0, 3]})
+    given: dict[str, Any] = NONE | {"tilt": [0, 2], "shift": [0, 3]}
+    sources = tolerance_sources(two_links(), **given)
     assert sources.shape == (4, 3, 6)
     assert not sources[:, [0, 2]].any()
     # the second axis is along z at (0.5, 0, 0)
@@ -53,8 +55,8 @@ def test_an_axis_is_tilted_and_shifted_across_itself_where_the_model_has_it():
 
 def test_a_slide_is_tilted_and_has_no_place():
     sources = tolerance_sources(slide(), **NONE | {"tilt": 1, "shift": 1})
-    assert np.count_nonzero(sources.any(axis=2)[:, 0]) == 2
-    assert np.count_nonzero(sources.any(axis=2)[:, 1]) == 4
+    assert np.count_nonzero(np.any(sources, axis=2)[:, 0]) == 2
+    assert np.count_nonzero(np.any(sources, axis=2)[:, 1]) == 4
 
 
 def test_the_home_pose_is_off_in_the_tool_s_axes():
@@ -127,7 +129,9 @@ def test_no_errors_within_the_tolerances_move_the_tool_farther_than_the_bound():
         moved.append(np.linalg.norm(V[3:] + np.cross(V[:3], chain.fk(q[0])[:3, 3])))
     assert most / len(sources) <= max(moved) <= most * (1 + 1e-12)
     alone = PoseUncertainty.by_tolerances(chain, offset=[1e-3, 0], bound=True)
-    (reached,) = {float(x) for x in np.ravel(run(Sweep(chain, samples, ONE, alone)).best) if x > 0}
+    (reached,) = {
+        float(x) for x in np.ravel(np.asarray(run(Sweep(chain, samples, ONE, alone)).best)) if x > 0
+    }
     # the tip turns about the first axis
     assert reached == pytest.approx(1e-3 * np.linalg.norm(chain.fk(q[0])[:2, 3]), rel=1e-12)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import get_args
+from typing import Any, get_args
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ ARMS = {
     "2R": two_links(),
     "PR": slide(),
 }
-TOLERANCES = {
+TOLERANCES: dict[str, Any] = {
     "tilt": 1e-3,
     "shift": 2e-4,
     "offset": 1e-4,
@@ -44,7 +44,7 @@ TOLERANCES = {
 CELLS = Cells.box([-2.0] * 3, [2.0] * 3, 0.5)
 
 
-def error(chain, part="position", bound=False):
+def error(chain, part: Any = "position", bound=False):
     return PoseUncertainty.by_tolerances(chain, **TOLERANCES, part=part, bound=bound)
 
 
@@ -128,7 +128,7 @@ def test_at_a_singularity_there_is_no_distance_to_it_and_no_exception():
     q = np.array([0.3, -1.0, 1.2, -1.0, 0.0, 0.4])  # two axes of the wrist in line
     samples = Random(q, q, 5)
     for measure in (InverseCondition(), SmallestSingularValue(), PoseManipulability()):
-        best = run(Sweep(chain, samples, CELLS, measure)).best
+        best = np.asarray(run(Sweep(chain, samples, CELLS, measure)).best)
         # the square of a manipulability is within rounding of 0
         assert 0 <= np.nanmax(best) <= 1e-7
 
@@ -168,7 +168,7 @@ def test_a_coordinate_without_limits_has_no_margin():
     q = samples.configurations(np.arange(500))
     one = Cells.box([-9] * 3, [9] * 3, 18)
     found = run(Sweep(free, samples, one, "limit_margin", "worst"))
-    assert np.nanmin(found.best) == pytest.approx(1 - np.abs(q[:, 0]).max(), abs=1e-15)
+    assert np.nanmin(np.asarray(found.best)) == pytest.approx(1 - np.abs(q[:, 0]).max(), abs=1e-15)
     bare = pk.Chain(two_links().screws, np.eye(4), frame="space")
     with pytest.raises(InputError, match=r"limit_margin': no coordinate of .* has limits"):
         Sweep(bare, Random.of(bare, 5), CELLS, "limit_margin")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,7 @@ ARMS = {
     "puma560": None,
     "stanford": None,
 }
-TOLERANCES = {
+TOLERANCES: dict[str, Any] = {
     "tilt": 1e-3,
     "shift": 2e-4,
     "offset": 5e-4,

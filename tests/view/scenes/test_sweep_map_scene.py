@@ -56,8 +56,9 @@ def test_a_cube_has_the_colour_of_what_is_kept_of_all_its_directions(name, keep)
     expected = run(Sweep(ARM, SAMPLES, flat, name, keep))
     scene = sweep_map_scene(run(Sweep(ARM, SAMPLES, CELLS, name, keep)))
     # of means in units of 2^-40, and divided
+    values = np.asarray(cloud(scene).values)
     np.testing.assert_allclose(
-        cloud(scene).values, np.asarray(expected.best)[expected.reached], rtol=1e-13, atol=1e-12
+        values, np.asarray(expected.best)[expected.reached], rtol=1e-13, atol=1e-12
     )
     words = {"travel": "joint travel", "limit_margin": "distance to the joint limits"}[name]
     unit = {"travel": " rad or m.", "limit_margin": " % of half the range."}[name]

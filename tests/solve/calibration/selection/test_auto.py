@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -76,4 +78,5 @@ def test_the_summary_says_what_each_term_brings():
     assert "compliance: in the fit, brings 0." in text
     assert "drift: not in the fit, would bring " in text
     assert "the calibrated chain takes true_joints(q)" in text
-    assert found.to_dict()["terms"][0]["name"] == "compliance"
+    document: Any = found.to_dict()
+    assert document["terms"][0]["name"] == "compliance"

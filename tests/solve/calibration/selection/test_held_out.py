@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -29,16 +31,16 @@ def fitted(sets, kinds=("screws", "home"), q=MADE.q):
 
 def test_held_out_errors_are_those_of_refits():
     problem, fit = fitted([MADE.points])
-    found = candidates(problem, fit, ("compliance",), CONDITIONS, "linear", Folds(5, 3))
+    found: Any = candidates(problem, fit, ("compliance",), CONDITIONS, "linear", Folds(5, 3))
     for chosen in ([], ["compliance"]):
         linear = found.held_out(chosen)
-        kinds = ("screws", "home", *chosen)
-        again = calibrate(CHAIN, MADE.q, MADE.points, parameters=kinds, folds=5, seed=3)
+        kinds: Any = ("screws", "home", *chosen)
+        again: Any = calibrate(CHAIN, MADE.q, MADE.points, parameters=kinds, folds=5, seed=3)
         # the linearisation leaves out second orders of errors of 1e-4, of lengths of 1 m
         assert linear.rms_length == pytest.approx(again.cross_validation.after.rms_length, rel=1e-2)
 
 
-def linear(problem, fit, **groups):
+def linear(problem, fit, **groups) -> Any:
     groups = groups or {"all": fit.free}
     return LinearFit(problem, fit, "linear", Folds(5, 0), groups)
 
@@ -92,7 +94,9 @@ def test_a_length_is_the_error_in_metres_whatever_the_noise():
 
 def test_the_rule_takes_the_smallest_set_within_one_standard_error():
     problem, fit = fitted([MADE.points])
-    found = candidates(problem, fit, ("drift", "compliance"), CONDITIONS, "linear", Folds(5, 0))
+    found: Any = candidates(
+        problem, fit, ("drift", "compliance"), CONDITIONS, "linear", Folds(5, 0)
+    )
     assert choose(found) == ["compliance"]
     compliance = found.held_out(["compliance"])
     both = found.held_out(["compliance", "drift"])
@@ -109,7 +113,7 @@ def test_too_few_readings_are_said_to_be():
     made = case(CHAIN, 2, sag=1e-3, count=12)
     problem, fit = fitted([made.points], q=made.q)
     conditions, _ = parse_conditions(None, made.q)
-    found = candidates(problem, fit, ("harmonics",), conditions, "linear", Folds(3, 0))
+    found: Any = candidates(problem, fit, ("harmonics",), conditions, "linear", Folds(3, 0))
     (gain,) = gains(found, [])
     assert np.isnan(gain.gain)
     assert str(gain) == "harmonics: not in the fit, too few readings to judge it"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -45,7 +47,7 @@ def test_columns_that_are_given_replace_what_the_order_says():
 
 @pytest.mark.parametrize("given", [("time",), ("temperature",), ("time", "temperature")])
 def test_a_drift_follows_the_temperature_and_else_the_time_beyond_their_means(given):
-    columns = {"time": [0.0, 10, 20, 50], "temperature": [290.0, 291, 293, 294]}
+    columns: dict[str, Any] = {"time": [0.0, 10, 20, 50], "temperature": [290.0, 291, 293, 294]}
     found, reference = parse_conditions({name: columns[name] for name in given}, Q)
     followed = given[-1]
     assert drift_source(reference) == followed
