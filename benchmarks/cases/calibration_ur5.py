@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from poekin import dh
 from poekin.groups import so3
 from poekin.model.chain import Chain
 from poekin.solve import calibration as cal
+from poekin.solve.calibration.model.parameters import Unit
 
 from ..report import Figure, Table, Topic, short
 
@@ -19,7 +20,7 @@ VARIABLE = "POEKIN_UR5_DATA"
 PLACE = Path(__file__).resolve().parents[3] / "shared" / "data" / "ur5_laser_tracker"
 FIT, JUDGE = "grid_1000.csv", "test_20.csv"
 POINT = np.array([-1e-6, 90e-6, 31e-3])  # of the reflector in tool0, m
-PRIOR: dict[Literal["rad", "m"], float] = {
+PRIOR: dict[Unit, float] = {
     "rad": 1e-2,
     "m": 1e-2,
 }  # the reflector is on the last axis, whose tilt it hardly shows
