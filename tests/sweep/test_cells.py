@@ -84,6 +84,15 @@ def test_no_point_of_a_tile_is_farther_from_its_centre_than_half_a_diagonal(n):
     assert angles.max() <= np.arccos(edge @ corner)
 
 
+@pytest.mark.parametrize("n", [1, 2, 4, 7])
+@pytest.mark.parametrize("up", [-2 / 3, 2 / 3])
+def test_a_rounding_below_a_whole_turn_is_in_the_tile_of_no_turn(n, up):
+    out = np.sqrt(1 - up**2)
+    cells = Cells(ONE.corner, ONE.resolution, ONE.shape, n)
+    below, none = cells.find(poses([[out, -1e-18, up], [out, 0.0, up]]))
+    assert below == none < cells.tiles
+
+
 @given(st.lists(st.floats(-0.3, 0.7), min_size=3, max_size=3))
 def test_a_point_is_in_the_cube_whose_corners_are_around_it(point):
     cells = Cells.box([-0.1, -0.1, -0.1], [0.5, 0.35, 0.2], 0.1)

@@ -33,9 +33,9 @@ def _around_equator(quarter, z, n):
     if column == other:
         face = column % 4 + 4
     elif column < other:
-        face = column
+        face = column % 4  # 4 where an angle just below a whole turn is rounded to it
     else:
-        face = other + 8
+        face = other % 4 + 8
     return face, rising % n, n - 1 - falling % n
 
 
