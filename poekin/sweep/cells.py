@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import ArrayLike
 from ..checks import positive, whole
 from ..errors import InputError, ShapeError
 from ..groups.arrays import Array, poses
+from ..groups.vectors import rotation_part, translation_part
 from .tile_centres import tile_centres
 
 _SIDES = 1025  # a square of tiles has fewer along a side
@@ -71,25 +71,29 @@ class Cells:
         """
         size = positive(resolution, "resolution")
         whole(side, "side", 0, _SIDES)
-        ends = np.array([_corner(lower, "lower"), _corner(upper, "upper")])
-        if not (ends[0] < ends[1]).all():
-            raise InputError(f"box: expected lower below upper, got {ends[0]} and {ends[1]}")
-        first = np.floor(ends[0] / size)
-        shape = np.maximum(np.ceil(ends[1] / size) - first, 1.0)
-        number = math.prod(shape) * max(12 * side**2, 1)
+        begin = _corner(lower, "lower")
+        end = _corner(upper, "upper")
+        if not (begin < end).all():
+            raise InputError(f"box: expected lower below upper, got {begin} and {end}")
+        first = np.floor(begin / size)
+        last = np.ceil(end / size)
+        shape = np.maximum(last - first, 1.0)
+        tiles = _tiles(side)
+        number = math.prod(shape) * tiles
+        nx, ny, nz = shape.tolist()
         if number > _MOST_CELLS:
             raise InputError(
                 f"resolution: expected at most 2^40 cells, got {number:.3g}, "
-                f"{shape[0]:.0f} x {shape[1]:.0f} x {shape[2]:.0f} cubes of {max(12 * side**2, 1)}"
+                f"{nx:.0f} x {ny:.0f} x {nz:.0f} cubes of {tiles}"
             )
         x, y, z = (first * size).tolist()
-        nx, ny, nz = (int(count) for count in shape)
-        return cls((x, y, z), size, (nx, ny, nz), side)
+        cubes = (int(nx), int(ny), int(nz))
+        return cls((x, y, z), size, cubes, side)
 
     @property
     def tiles(self) -> int:
         """Tiles of directions of each cube, 1 where they are not told apart."""
-        return 12 * self.side**2 if self.side else 1
+        return _tiles(self.side)
 
     @property
     def count(self) -> int:
@@ -144,11 +148,12 @@ class Cells:
         p : (nx, ny, nz, 3) ndarray
             Points in the base frame, m.
         """
-        axes = [
-            start + self.resolution * (np.arange(number, dtype=float) + 0.5)
-            for start, number in zip(self.corner, self.shape, strict=True)
-        ]
-        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+        axes = []
+        for start, count in zip(self.corner, self.shape, strict=True):
+            middles = np.arange(count, dtype=float) + 0.5
+            axes.append(start + self.resolution * middles)
+        grids = np.meshgrid(*axes, indexing="ij")
+        return np.stack(grids, axis=-1)
 
     def poses(self, turns: int = 1) -> Array:
         """Poses in the middle of every cell.
@@ -170,16 +175,15 @@ class Cells:
             If turns is no whole number from 1 on.
         """
         whole(turns, "turns", 1)
-        z = tile_centres(self.side) if self.side else np.array([[0.0, 0.0, 1.0]])
+        z = np.array([[0.0, 0.0, 1.0]])
+        if self.side:
+            z = tile_centres(self.side)
         angle = 2.0 * np.pi * np.arange(turns) / turns
         tilt = _tilts(z)
-        spin = np.tile(np.eye(3), (turns, 1, 1))
-        spin[:, 0, 0] = spin[:, 1, 1] = np.cos(angle)
-        spin[:, 1, 0] = np.sin(angle)
-        spin[:, 0, 1] = -spin[:, 1, 0]
+        p = self.centres()
         T = np.zeros((*self.shape, len(z), turns, 4, 4))
-        T[..., :3, :3] = tilt[:, None] @ spin
-        T[..., :3, 3] = self.centres()[..., None, None, :]
+        rotation_part(T)[:] = tilt[:, None] @ _turned(angle)
+        translation_part(T)[:] = p[..., None, None, :]
         T[..., 3, 3] = 1.0
         return T
 
@@ -213,8 +217,25 @@ class Cells:
         T = poses(T, "T")
         found = np.empty(T.shape[:-2], np.int64)
         rows = T.reshape(-1, 4, 4)
-        sweep_kernel.located.call(rows, self.numbers(), self.place(), found.reshape(-1))
+        into = found.reshape(-1)
+        sweep_kernel.located.call(rows, self.numbers(), self.place(), into)
         return found
+
+
+def _tiles(side: int) -> int:
+    return max(12 * side**2, 1)
+
+
+def _turned(angle: Array) -> Array:
+    """Rotations (N, 3, 3) about z."""
+    cosine = np.cos(angle)
+    sine = np.sin(angle)
+    R = np.tile(np.eye(3), (len(angle), 1, 1))
+    R[:, 0, 0] = cosine
+    R[:, 0, 1] = -sine
+    R[:, 1, 0] = sine
+    R[:, 1, 1] = cosine
+    return R
 
 
 def _tilts(z: Array) -> Array:
@@ -222,17 +243,23 @@ def _tilts(z: Array) -> Array:
     opposite side about x.
     """
     x, y, up = z.T
-    near = np.maximum(1.0 + up, np.finfo(float).tiny)
+    near = 1.0 + up
+    is_opposite = near <= 0.0
+    near = np.maximum(near, np.finfo(float).tiny)
+    xy = -x * y / near
     R = np.empty((len(z), 3, 3))
-    R[:, 0] = np.stack([1.0 - x * x / near, -x * y / near, x], axis=1)
-    R[:, 1] = np.stack([-x * y / near, 1.0 - y * y / near, y], axis=1)
-    R[:, 2] = np.stack([-x, -y, up], axis=1)
-    R[1.0 + up <= 0.0] = np.diag([1.0, -1.0, -1.0])
+    R[:, 0, 0] = 1.0 - x * x / near
+    R[:, 0, 1] = xy
+    R[:, 1, 0] = xy
+    R[:, 1, 1] = 1.0 - y * y / near
+    R[:, 2] = -z
+    R[:, :, 2] = z
+    R[is_opposite] = np.diag([1.0, -1.0, -1.0])
     return R
 
 
-def _corner(point: ArrayLike, what: str) -> Sequence[float]:
+def _corner(point: ArrayLike, what: str) -> Array:
     values = np.asarray(point, float)
     if values.shape != (3,) or not np.isfinite(values).all():
         raise ShapeError(f"{what}: expected three finite numbers, m, got {point!r}")
-    return values.tolist()
+    return values

@@ -46,7 +46,9 @@ class Surface(NamedTuple):
 
     def placed(self, point: Array, z: Array) -> Surface:
         """Surface whose z axis comes to lie along the unit vector z, its origin at a point."""
-        return Surface(self.vertices @ turned_least(z).T + point, self.faces)
+        R = turned_least(z)
+        vertices = self.vertices @ R.T + point
+        return Surface(vertices, self.faces)
 
 
 def merged(*parts: tuple[Array, np.ndarray]) -> Surface:
@@ -90,7 +92,9 @@ def _normals(surface: Surface) -> Array:
 def _neighbours(faces: np.ndarray) -> np.ndarray:
     """Two faces at each edge of a closed surface, (2, number of edges)."""
     ahead = np.roll(faces, -1, axis=1)
-    edges = np.stack([faces.T.ravel(), ahead.T.ravel()], axis=1)
+    begins = faces.T.ravel()
+    ends = ahead.T.ravel()
+    edges = np.stack([begins, ends], axis=1)
     edges.sort(axis=1)
     owners = np.tile(np.arange(len(faces)), 3)
     by_edge = owners[np.lexsort(edges.T)]
@@ -146,8 +150,10 @@ def _turns(sides: int) -> Array:
 def _skin(rings: Array, ends: Array) -> Surface:
     """Closed surface over rings (n, sides, 3) of vertices, from one end point (2, 3) to the other."""
     count, sides, _ = rings.shape
-    vertices = np.concatenate([rings.reshape(-1, 3), ends])
-    return creased(Surface(vertices, _between_rings(count, sides)))
+    around = rings.reshape(-1, 3)
+    vertices = np.concatenate([around, ends])
+    faces = _between_rings(count, sides)
+    return creased(Surface(vertices, faces))
 
 
 def _between_rings(rings: int, sides: int) -> np.ndarray:
@@ -165,8 +171,11 @@ def _between_rings(rings: int, sides: int) -> np.ndarray:
         (first, ahead, here),
         (last, top + here, top + ahead),
     ]
-    faces = [np.stack(three, axis=-1) for three in corners]
-    return np.concatenate([group.reshape(-1, 3) for group in faces])
+    groups = []
+    for three in corners:
+        faces = np.stack(three, axis=-1)
+        groups.append(faces.reshape(-1, 3))
+    return np.concatenate(groups)
 
 
 def tube(points: ArrayLike, radius: float) -> Surface:
@@ -202,7 +211,9 @@ def cone(radius: float, length: float, sides: int = SIDES) -> Surface:
 
 def sphere(radius: float = 1.0, sides: int = 32) -> Surface:
     """Sphere about the origin, its vertices on it; half as many rings as sides."""
-    profile = _half_circle(radius, np.linspace(0, np.pi, sides // 2 + 1))
+    count = sides // 2 + 1
+    turn = np.linspace(0, np.pi, count)
+    profile = _half_circle(radius, turn)
     return revolved(profile.radii, profile.heights, sides)
 
 
@@ -228,8 +239,9 @@ def capsule(start: ArrayLike, end: ArrayLike, radius: float, sides: int = SIDES)
     if length <= 1e-6 * radius:
         ball = sphere(radius, sides)
         return Surface(ball.vertices + start, ball.faces)
-    quarter = np.linspace(0, 0.5 * np.pi, sides // 4 + 1)
-    turn = np.concatenate([quarter, 0.5 * np.pi + quarter])  # the equator twice, at both ends
+    right = 0.5 * np.pi
+    quarter = np.linspace(0, right, sides // 4 + 1)
+    turn = np.concatenate([quarter, right + quarter])  # the equator twice, at both ends
     profile = _half_circle(radius, turn)
     apart = np.repeat([0.0, length], len(quarter))
     surface = revolved(profile.radii, profile.heights + apart, sides)
@@ -238,13 +250,20 @@ def capsule(start: ArrayLike, end: ArrayLike, radius: float, sides: int = SIDES)
 
 def box(sizes: ArrayLike) -> Surface:
     """Box of sizes (3,) along x, y and z, its middle at the origin."""
-    corners = np.array(list(product((-0.5, 0.5), repeat=3)))
-    faces = [
-        [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
-        [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3],
-    ]  # fmt: skip
+    signs = list(product((-0.5, 0.5), repeat=3))
+    corners = np.array(signs)
+    sides = [
+        [0, 1, 3, 2],  # -x
+        [4, 6, 7, 5],  # +x
+        [0, 4, 5, 1],  # -y
+        [2, 3, 7, 6],  # +y
+        [0, 2, 6, 4],  # -z
+        [1, 5, 7, 3],  # +z
+    ]
+    halves = np.array(sides)[:, [0, 1, 2, 0, 2, 3]]
+    faces = halves.reshape(-1, 3)
     vertices = corners * np.asarray(sizes, float)
-    return creased(Surface(vertices, np.array(faces)))
+    return creased(Surface(vertices, faces))
 
 
 def arrow(
@@ -279,9 +298,12 @@ def arc_arrow(radius: float, thickness: float, angle: float = 1.5 * np.pi) -> Su
     neck = angle - 2.0 * tip / radius
     points = helix_points(radius, neck, 0.0)
     middle = 0.5 * (neck + angle)
-    ahead = np.array([-np.sin(middle), np.cos(middle), 0.0])
-    head = cone(tip, 2.0 * tip, AROUND).placed(points[-1], ahead)
-    return merged(tube(points, thickness), head)
+    x = -np.sin(middle)
+    y = np.cos(middle)
+    ahead = np.array([x, y, 0.0])
+    head = cone(tip, 2.0 * tip, AROUND)
+    shaft = tube(points, thickness)
+    return merged(shaft, head.placed(points[-1], ahead))
 
 
 def helix(radius: float, thickness: float, rise: float) -> Surface:
@@ -295,8 +317,8 @@ def helix(radius: float, thickness: float, rise: float) -> Surface:
 
 def helix_points(radius: float, angle: float, rise: float) -> Array:
     """Points (n, 3) of a helix about z from the x axis on, 24 a turn; of an arc where rise is 0."""
-    steps = int(np.ceil(24 * angle / (2 * np.pi)))
-    count = max(2, steps + 1)
+    steps = np.ceil(24 * angle / (2 * np.pi))
+    count = max(2, int(steps) + 1)
     turn = np.linspace(0.0, angle, count)
     x = radius * np.cos(turn)
     y = radius * np.sin(turn)
@@ -308,7 +330,8 @@ def frame_axes(pose: Array, length: float) -> tuple[Surface, Surface, Surface]:
     """Arrows along x, y and z of a frame at a pose (4, 4), m."""
     one = _axis_arrow().scaled(length)
     origin = translation_part(pose)
-    x, y, z = (one.placed(origin, axis) for axis in rotation_part(pose).T)
+    axes = rotation_part(pose).T
+    x, y, z = (one.placed(origin, axis) for axis in axes)
     return x, y, z
 
 
