@@ -52,7 +52,8 @@ class Samples:
     @property
     def bounds(self) -> Array:
         """Lower bounds and widths (2, m)."""
-        return np.array([self.lower, self.upper - self.lower])
+        widths = self.upper - self.lower
+        return np.array([self.lower, widths])
 
     def configurations(self, numbers: ArrayLike) -> Array:
         """Configurations of samples.
@@ -84,7 +85,8 @@ class Samples:
                 f"numbers: expected 0 ... {self.count - 1}, got {asked.min()} ... {asked.max()}"
             )
         q = np.empty((len(asked), len(self.lower)))
-        sweep_kernel.sampled.call(asked.astype(np.int64), self.numbers(), self.bounds, q)
+        rows = asked.astype(np.int64)
+        sweep_kernel.sampled.call(rows, self.numbers(), self.bounds, q)
         return q
 
 
@@ -209,7 +211,8 @@ class Sobol(Samples):
 
     def numbers(self) -> np.ndarray:
         """Whole numbers of the kernel."""
-        return np.append(self.kind, sobol_numbers(len(self.lower), self.seed))
+        of_sequence = sobol_numbers(len(self.lower), self.seed)
+        return np.append(self.kind, of_sequence)
 
     def describe(self) -> dict[str, object]:
         """Plain data of the samples."""
@@ -258,7 +261,10 @@ class Grid(Samples):
         ShapeError
             If there is another number of counts than of coordinates.
         """
-        each: Sequence[Any] = [counts] * chain.dof if np.ndim(counts) == 0 else list(counts)  # type: ignore[arg-type]
+        each: Any = counts
+        if np.ndim(each) == 0:
+            each = [counts] * chain.dof
+        each = list(each)
         if len(each) != chain.dof:
             raise ShapeError(f"counts: expected one or {chain.dof} numbers, got {len(each)}")
         parts = tuple(whole(part, "counts", 1, KERNEL_INT) for part in each)
@@ -272,6 +278,13 @@ class Grid(Samples):
     def describe(self) -> dict[str, object]:
         """Plain data of the samples."""
         return {"grid": list(self.counts)} | _bounds(self)
+
+
+def samples_of(chain: Chain, asked: int | Samples) -> Samples:
+    """Samples as they are, or a number of random ones. Raises: InputError."""
+    if isinstance(asked, Samples):
+        return asked
+    return Random.of(chain, asked)
 
 
 def samples_from(document: dict[str, Any]) -> Samples:

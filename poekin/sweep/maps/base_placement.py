@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import ShapeError
 from ...groups.arrays import Array, poses
+from ...groups.vectors import rotation_part, translation_part
 from ...results import Result
 from .sweep_map import SweepMap
 
@@ -99,14 +100,15 @@ def base_placement(found: SweepMap, T_wt: ArrayLike, T_wb: ArrayLike) -> BasePla
     """
     targets = _rows(T_wt, "T_wt")
     bases = _rows(T_wb, "T_wb")
-    R = bases[:, :3, :3]
+    R = rotation_part(bases)
+    p = translation_part(bases)
     inverse = bases.copy()
-    inverse[:, :3, :3] = np.swapaxes(R, 1, 2)
-    inverse[:, :3, 3] = -np.einsum("kji,kj->ki", R, bases[:, :3, 3])
+    rotation_part(inverse)[:] = np.swapaxes(R, 1, 2)
+    translation_part(inverse)[:] = -np.einsum("kji,kj->ki", R, p)
     counts = np.array([found.query(T_bw @ targets) for T_bw in inverse])
     is_reached = counts > 0
     reached = is_reached.sum(axis=1)
-    rarest = np.where(is_reached, counts, np.iinfo(np.int64).max).min(axis=1)
+    rarest = counts.min(axis=1, where=is_reached, initial=np.iinfo(np.int64).max)
     rarest[reached == 0] = 0
     order = np.lexsort((-rarest, -reached))
     return BasePlacement(bases[order], order, reached[order], rarest[order], len(targets))

@@ -72,7 +72,9 @@ def branches(
     T = cells.poses(turns).reshape(-1, 4, 4)
     for first in range(0, len(T), _AT_ONCE):
         part = slice(first, first + _AT_ONCE)
-        found[part] = ik_all(arm, T[part], limits=limits, parallel=True).counts
+        solutions = ik_all(arm, T[part], limits=limits, parallel=True)
+        found[part] = solutions.counts
         if progress is not None:
-            progress(min(first + _AT_ONCE, len(T)), len(T))
+            done = min(part.stop, len(T))
+            progress(done, len(T))
     return layers

@@ -18,7 +18,7 @@ from ..bins import Bins
 from ..execution.run import RunOptions, run_totals
 from ..measures.measure import Measure
 from ..measures.names import LABELS, MeasureName
-from ..samples import Random, Samples
+from ..samples import Samples, samples_of
 from ..sweep import Keep, Sweep
 from .top import top
 
@@ -120,19 +120,25 @@ def histogram(
     100000
     """
     arm = chain_of(chain)
-    drawn = samples if isinstance(samples, Samples) else Random.of(arm, samples)
+    drawn = samples_of(arm, samples)
     whole(bins, "bins", 1, _MOST_BINS)
-    lower, upper = _tried(arm, drawn, measure) if ends is None else _checked(ends)
-    sweep = Sweep(arm, drawn, Bins(lower, upper, bins), measure)
+    if ends is None:
+        ends = _tried(arm, drawn, measure)
+    else:
+        ends = _checked(ends)
+    sweep = Sweep(arm, drawn, Bins(*ends, bins), measure)
     totals = run_totals(sweep, **options)
-    edges = np.linspace(lower, upper, bins + 1)
+    edges = np.linspace(*ends, bins + 1)
     return MeasureHistogram(sweep.describe(), edges, totals.counts, totals.outside)
 
 
 def _tried(chain: Chain, samples: Samples, measure: Measure | MeasureName) -> tuple[float, float]:
     """Least and largest measure of the first samples, with some room."""
     few = replace(samples, count=min(_TRIED, samples.count))
-    values = [top(chain, measure, 1, keep=keep, samples=few).values[0] for keep in _BOTH]
+    values = []
+    for keep in _BOTH:
+        found = top(chain, measure, 1, keep=keep, samples=few)
+        values.append(found.values[0])
     lower = float(min(values))
     upper = float(max(values))
     room = _ROOM * (upper - lower) or 1.0

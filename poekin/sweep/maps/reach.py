@@ -7,6 +7,7 @@ import os
 import numpy as np
 
 from ...checks import positive
+from ...groups.vectors import translation_part
 from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, chain_of
 from ...results import Progress
@@ -121,7 +122,12 @@ def reach(  # noqa: PLR0913 - options by keyword
 
 def _around(chain: Chain, samples: Random, size: float, side: int) -> Cells:
     """Cells around the first of the samples."""
-    q = samples.configurations(np.arange(min(_TRIED, samples.count)))
+    count = min(_TRIED, samples.count)
+    q = samples.configurations(np.arange(count))
+    T = chain.compile().fk(q)
     # rounded, so that the last bit of a pose, which differs by processor, moves no corner
-    p = chain.compile().fk(q)[:, :3, 3].round(9)
-    return Cells.box(p.min(axis=0) - _MORE * size, p.max(axis=0) + _MORE * size, size, side)
+    p = translation_part(T).round(9)
+    more = _MORE * size
+    lower = p.min(axis=0) - more
+    upper = p.max(axis=0) + more
+    return Cells.box(lower, upper, size, side)

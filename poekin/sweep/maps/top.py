@@ -16,7 +16,7 @@ from ..bins import TopList
 from ..execution.run import RunOptions, run_totals
 from ..measures.measure import Measure
 from ..measures.names import LABELS, MeasureName
-from ..samples import Random, Samples
+from ..samples import Samples, samples_of
 from ..sweep import Keep, Sweep
 
 _LONGEST = 2**20
@@ -52,7 +52,9 @@ class TopSamples(Result):
             Line such as "10 best of 1000000 configurations: manipulability 0.12 to 0.11".
         """
         label = LABELS[self.about["measure"]]
-        ends = label.between(float(self.values[0]), float(self.values[-1]))
+        first = float(self.values[0])
+        last = float(self.values[-1])
+        ends = label.between(first, last)
         return (
             f"{len(self.values)} {self.about['keep']} of {self.about['count']} configurations: "
             f"{label.words} {ends}"
@@ -110,12 +112,15 @@ def top(
     (3, 6)
     """
     arm = chain_of(chain)
-    drawn = samples if isinstance(samples, Samples) else Random.of(arm, samples)
+    drawn = samples_of(arm, samples)
     whole(count, "count", 1, _LONGEST)
     if keep == "mean":
         raise InputError("keep: expected 'best' or 'worst', got 'mean'")
-    sweep = Sweep(arm, drawn, TopList(min(count, drawn.count)), measure, keep)
+    best = TopList(min(count, drawn.count))
+    sweep = Sweep(arm, drawn, best, measure, keep)
     totals = run_totals(sweep, **options)
     about = sweep.describe() | {"count": drawn.count}
+    values = sweep.sign * totals.best
     numbers = totals.attained
-    return TopSamples(about, sweep.sign * totals.best, numbers, drawn.configurations(numbers))
+    q = drawn.configurations(numbers)
+    return TopSamples(about, values, numbers, q)

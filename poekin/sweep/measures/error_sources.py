@@ -4,7 +4,6 @@ calibration.
 
 from __future__ import annotations
 
-from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -14,9 +13,9 @@ from ...errors import InputError, ShapeError
 from ...groups import se3
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...solve.calibration.model.error_model import across, joint_frames
 from ...solve.calibration.result import CalibrationData
 
-_ACROSS = [0, 1, 3, 4]  # tilts and shifts of an axis in its z-aligned frame
 _STEP = 1e-4
 _FITS = 1e-6  # of a screw's change, that no motion of the screw explains: differences err by 1e-8
 _NEGATIVE = -1e-10  # of the largest eigenvalue of a covariance, by rounding
@@ -36,18 +35,24 @@ def tolerance_sources(
     n = len(chain.joint_names)
     tilts = _sizes(tilt, n, "tilt")
     shifts = _sizes(shift, n, "shift")
-    frames = np.reshape(list(accumulate(chain.local.frames[:-1], np.matmul)), (-1, 4, 4))
-    across = np.swapaxes(se3.adjoint(frames)[..., _ACROSS], 1, 2)
-    across *= np.stack([tilts, tilts, shifts, shifts], axis=1)[..., None]
-    across[chain.local.rotates == 0, 2:] = 0.0  # a slide has a direction and no place
+    offsets = _sizes(offset, chain.dof, "offset")
+    rotation = _size(home_rotation, "home_rotation")
+    position = _size(home_position, "home_position")
+    frames = joint_frames(chain)
+    twists = np.swapaxes(across(frames), 1, 2)
+    sizes = np.stack([tilts, tilts, shifts, shifts], axis=1)
+    twists *= sizes[..., None]
+    slides = chain.local.rotates == 0
+    twists[slides, 2:] = 0.0  # a slide has a direction and no place
     of_screws = np.zeros((n, 4, n + 1, 6))
-    of_screws[np.arange(n), :, np.arange(n)] = across
-    offsets = _offset_sources(chain) * _sizes(offset, chain.dof, "offset")[:, None, None]
-    home = np.zeros((6, n + 1, 6))
-    home[np.arange(6), n, np.arange(6)] = np.repeat(
-        [_size(home_rotation, "home_rotation"), _size(home_position, "home_position")], 3
-    )
-    return _kept(np.concatenate([of_screws.reshape(-1, n + 1, 6), offsets, home]))
+    for i, of_screw in enumerate(twists):
+        of_screws[i, :, i] = of_screw
+    of_offsets = _offset_sources(chain) * offsets[:, None, None]
+    of_home = np.zeros((6, n + 1, 6))
+    of_home[:3, n, :3] = rotation * np.eye(3)
+    of_home[3:, n, 3:] = position * np.eye(3)
+    parts = [of_screws.reshape(-1, n + 1, 6), of_offsets, of_home]
+    return _kept(np.concatenate(parts))
 
 
 def covariance_sources(chain: Chain, covariance: ArrayLike) -> Array:
@@ -57,7 +62,8 @@ def covariance_sources(chain: Chain, covariance: ArrayLike) -> Array:
     size = 6 * (n + 1)
     if C.shape != (size, size):
         raise ShapeError(f"covariance: expected ({size}, {size}), got {C.shape}")
-    return _kept(_half(C).T.reshape(size, n + 1, 6))
+    sources = _half(C).T
+    return _kept(sources.reshape(size, n + 1, 6))
 
 
 def calibration_sources(found: CalibrationData) -> Array:
@@ -71,33 +77,37 @@ def calibration_sources(found: CalibrationData) -> Array:
     p = found.values[:count]
     n = len(found.chain.joint_names)
     twists = np.empty((count, n + 1, 6))
-    for k in range(count):
-        step = _STEP * np.eye(count)[k]
+    steps = _STEP * np.eye(count)
+    for k, step in enumerate(steps):
         ahead = model.chain(p + step)
         behind = model.chain(p - step)
         if not np.array_equal(ahead.coupling, behind.coupling):
             raise InputError(
                 f"calibration: {model.parameters[k].name} is a gain, whose error no screw has"
             )
-        twists[k] = _between(behind, ahead, found.chain) / (2.0 * _STEP)
-    H = _half(found.covariance[:count, :count])
+        moved = _between(behind, ahead, found.chain)
+        twists[k] = moved / (2.0 * _STEP)
+    C = found.covariance[:count, :count]
+    H = _half(C)
     return _kept(np.tensordot(H.T, twists, axes=1))
 
 
 def _between(behind: Chain, ahead: Chain, chain: Chain) -> Array:
     """eta_1 ... eta_n, eta (n + 1, 6) that lead from one arm to the other. Raises: InputError."""
     change = ahead.screws - behind.screws
+    largest = np.abs(change).max()
     etas = []
     for A, dA in zip(chain.screws, change, strict=True):
         to_change = -se3.ad(A)
-        eta = np.linalg.lstsq(to_change, dA, rcond=1e-9)[0]
-        if np.abs(to_change @ eta - dA).max() > _FITS * np.abs(change).max():
+        eta, *_ = np.linalg.lstsq(to_change, dA, rcond=1e-9)
+        left = to_change @ eta - dA
+        if np.abs(left).max() > _FITS * largest:
             raise InputError(
                 "calibration: a pitch is estimated, whose error no motion of a screw has"
             )
         etas.append(eta)
-    home = se3.log(se3.inverse(behind.home) @ ahead.home)
-    return np.array([*etas, home])
+    way = se3.inverse(behind.home) @ ahead.home
+    return np.array([*etas, se3.log(way)])
 
 
 def _offset_sources(chain: Chain) -> Array:
@@ -105,17 +115,20 @@ def _offset_sources(chain: Chain) -> Array:
     behind it by A_i dx.
     """
     n = len(chain.joint_names)
+    to_tool = se3.inverse(chain.home)
+    Ad = se3.adjoint(to_tool)
     found = np.zeros((chain.dof, n + 1, 6))
     for i, A in enumerate(chain.screws):
         ways = chain.coupling[i][:, None, None]
         found[:, i + 1 : n] += ways * A
-        found[:, n:] += ways * (se3.adjoint(se3.inverse(chain.home)) @ A)
+        found[:, n:] += ways * (Ad @ A)
     return found
 
 
 def _half(C: Array) -> Array:
     """H with H Hᵀ = C. Raises: InputError."""
-    if not np.isfinite(C).all() or not np.allclose(C, C.T, rtol=1e-9, atol=0.0):
+    is_finite = np.isfinite(C).all()
+    if not is_finite or not np.allclose(C, C.T, rtol=1e-9, atol=0.0):
         raise InputError("covariance: expected a symmetric matrix of finite numbers")
     values, vectors = np.linalg.eigh((C + C.T) / 2)
     if values.size and values[0] < _NEGATIVE * values[-1]:
@@ -124,14 +137,16 @@ def _half(C: Array) -> Array:
 
 
 def _kept(sources: Array) -> Array:
-    return sources[np.abs(sources).max(axis=(1, 2), initial=0.0) > 0]
+    largest = np.abs(sources).max(axis=(1, 2), initial=0.0)
+    return sources[largest > 0]
 
 
 def _sizes(values: ArrayLike, count: int, what: str) -> Array:
     sizes: Any = np.asarray(values, float)
     if sizes.shape not in ((), (count,)):
         raise ShapeError(f"{what}: expected one or {count} numbers, got {sizes.shape}")
-    if not (np.isfinite(sizes).all() and (sizes >= 0).all()):
+    is_size = np.isfinite(sizes) & (sizes >= 0)
+    if not is_size.all():
         raise InputError(f"{what}: expected finite numbers from 0 on, got {values}")
     return np.broadcast_to(sizes, count)
 

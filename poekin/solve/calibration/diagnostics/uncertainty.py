@@ -12,12 +12,13 @@ import numpy as np
 from ....errors import InputError, join_names
 from ....groups import se3
 from ....groups.arrays import Array
-from ....groups.vectors import norms
+from ....groups.vectors import angular_part, linear_part, norms
 from ..measurements.measurement import Measurement
 from ..measurements.points import point_at, velocities
 from ..measurements.poses import pose_error_jacobian
 from ..model.error_model import ErrorModel, PosesAndTwists
 from ..model.parameters import Parameter
+from ..model.problem import in_all_parameters
 
 CONFIGURATIONS = 1000
 """How many random configurations stand for the workspace."""
@@ -42,7 +43,8 @@ class Estimate(NamedTuple):
     def propagated(self, J: Array) -> Array:
         """J C J^T of J (..., d, k) in the first k parameters."""
         k = J.shape[-1]
-        return J @ self.covariance[:k, :k] @ np.swapaxes(J, -1, -2)
+        C = self.covariance[:k, :k]
+        return J @ C @ np.swapaxes(J, -1, -2)
 
 
 class Workspace(NamedTuple):
@@ -63,13 +65,15 @@ class Workspace(NamedTuple):
     @property
     def worst(self) -> Array:
         """Configuration (m,) at which the position is known least."""
-        return np.asarray(self.q[np.argmax(self.length)])
+        least_known = np.argmax(self.length)
+        return np.asarray(self.q[least_known])
 
 
 def pose_covariance(estimate: Estimate, q: Array) -> Array:
     """Covariance (N, 6, 6) of rotation vector and position at q (N, m), in base axes."""
     T, D = estimate.at(q)
-    return estimate.propagated(_of_pose(T, D))
+    J = _of_pose(T, D)
+    return estimate.propagated(J)
 
 
 def relative_covariance(estimate: Estimate, q_a: Array, q_b: Array) -> Array:
@@ -77,7 +81,10 @@ def relative_covariance(estimate: Estimate, q_a: Array, q_b: Array) -> Array:
     T_a, D_a = estimate.at(q_a)
     T_b, D_b = estimate.at(q_b)
     back = se3.inverse(T_a)
-    return estimate.propagated(_of_pose(back @ T_b, se3.adjoint(back) @ (D_b - D_a)))
+    T_ab = back @ T_b
+    D_ab = se3.adjoint(back) @ (D_b - D_a)
+    J = _of_pose(T_ab, D_ab)
+    return estimate.propagated(J)
 
 
 def distance_variance(estimate: Estimate, q_a: Array, q_b: Array, point: Array) -> Array:
@@ -86,26 +93,26 @@ def distance_variance(estimate: Estimate, q_a: Array, q_b: Array, point: Array) 
     T_b, D_b = estimate.at(q_b)
     a = point_at(T_a, point)
     b = point_at(T_b, point)
-    size = norms(b - a)[:, None]
-    u = (b - a) / np.maximum(size, np.finfo(float).tiny)
-    J = u[:, None] @ (velocities(D_b, b) - velocities(D_a, a))
+    way = b - a
+    size = norms(way)[:, None]
+    u = way / np.maximum(size, np.finfo(float).tiny)
+    apart = velocities(D_b, b) - velocities(D_a, a)
+    J = u[:, None] @ apart
     return estimate.propagated(J)[:, 0, 0]
 
 
 def measurement_covariance(estimate: Estimate, q: Array, s: Measurement, k: int) -> Array:
     """Covariance (N, d, d) of the errors of a measurement like s, of set k, at q (N, m)."""
     T, D = estimate.at(q)
-    names = [_frame_name(estimate, frame.name, frame.shared, k) for frame in s.unknown_frames]
-    frames = [estimate.frames[name] for name in names]
-    of_arm, of_frames = s.jacobian(T, frames, np.zeros((len(q), s.width)), D)
-    J = np.zeros((len(q), s.width, len(estimate.p)))
-    J[..., : of_arm.shape[2]] = of_arm
-    for name, of_frame in zip(names, of_frames, strict=True):
-        own = [i for i, p in enumerate(estimate.parameters) if p.owner == name]
-        if len(own) == 6:
-            # at T e^eta with eta != 0 the frame moves by J_r(eta) d eta
-            of_frame = of_frame @ se3.right_jacobian(estimate.p[own])
-        J[..., own] = of_frame
+    no_errors = np.zeros((len(q), s.width))
+    frames = []
+    parts = []
+    for frame in s.unknown_frames:
+        name = _frame_name(estimate, frame.name, frame.shared, k)
+        frames.append(estimate.frames[name])
+        parts.append([i for i, p in enumerate(estimate.parameters) if p.owner == name])
+    jacobian = s.jacobian(T, frames, no_errors, D)
+    J = in_all_parameters(*jacobian, parts, estimate.p)
     return estimate.propagated(J)
 
 
@@ -125,10 +132,13 @@ def workspace(estimate: Estimate, count: int, seed: int) -> Workspace:
     """Standard deviations of the tool's pose at `count` random configurations."""
     q = np.asarray(estimate.model.nominal.random(seed, count))
     C = pose_covariance(estimate, q)
-    variances = np.maximum(np.diagonal(C, axis1=1, axis2=2), 0.0)
-    angle = np.sqrt(variances[:, :3].sum(axis=1))
-    return Workspace(np.sqrt(variances[:, 3:].sum(axis=1)), angle, q)
+    diagonal = np.diagonal(C, axis1=1, axis2=2)
+    variances = np.maximum(diagonal, 0.0)
+    of_angle = angular_part(variances).sum(axis=1)
+    of_length = linear_part(variances).sum(axis=1)
+    return Workspace(np.sqrt(of_length), np.sqrt(of_angle), q)
 
 
 def _of_pose(T: Array, D: Array) -> Array:
-    return pose_error_jacobian(T, np.zeros((len(T), 6)), D)
+    no_errors = np.zeros((len(T), 6))
+    return pose_error_jacobian(T, no_errors, D)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....groups.arrays import Array
+from ....groups.vectors import applied
 from ..model.configurations import configurations
 from ..model.problem import Problem
 from ..model.tsqr import least_squares, qr_r
@@ -33,13 +34,17 @@ def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
     B = problem.scale[:, None] * fit.free
     A = fit.jacobian
     if options.prior is not None:
-        A = np.concatenate([A, (1.0 / options.prior)[:, None] * B])
+        inverse_prior = 1.0 / options.prior
+        of_prior = inverse_prior[:, None] * B
+        A = np.concatenate([A, of_prior])
     R = qr_r(A) if fit.triangle is None else fit.triangle
     inverse = _inverse(R)
     half = B @ inverse
     clusters = _clusters(problem)
     if clusters is not None:
-        half = half @ _root(_meat(A @ inverse, _scores(problem, fit, options), clusters))
+        scores = _scores(problem, fit, options)
+        M = _meat(A @ inverse, scores, clusters)
+        half = half @ _root(M)
     covariance = half @ half.T  # a product with its own transpose is symmetric to the last bit
     if options.loss == "linear":
         return covariance
@@ -49,13 +54,16 @@ def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
     squares = fit.noise.squares(problem.errors(fit.p))
     for s, m in zip(squares, problem.sets, strict=True):
         rho = loss(options.loss, s, m.width)
+        slopes = m.width * rho.weight + 2.0 * rho.rho_second * s
         psi_squared += float(np.sum(rho.weight**2 * s))
-        psi_slope += float(np.sum(m.width * rho.weight + 2.0 * rho.rho_second * s))
+        psi_slope += float(np.sum(slopes))
     # residuals after a fit are smaller than the noise, by what the parameters took up
-    psi_squared /= max(total - fit.free.shape[1], 1)
+    freedom = total - fit.free.shape[1]
+    psi_squared /= max(freedom, 1)
     if clusters is not None:
         psi_squared = 1.0  # its part is in the scores
-    return covariance * psi_squared / max(psi_slope / total, 1e-3) ** 2
+    mean_slope = max(psi_slope / total, 1e-3)
+    return covariance * psi_squared / mean_slope**2
 
 
 def _clusters(problem: Problem) -> NDArray[np.intp] | None:
@@ -65,8 +73,11 @@ def _clusters(problem: Problem) -> NDArray[np.intp] | None:
     if all(s.covariance is not None for s in problem.sets):
         return None
     label = configurations(problem.q)
-    pairs = zip(problem.sets, problem.rows, strict=True)
-    clusters = np.concatenate([np.repeat(label[rows], s.width) for s, rows in pairs])
+    of_sets = []
+    for s, rows in zip(problem.sets, problem.rows, strict=True):
+        of_set = np.repeat(label[rows], s.width)
+        of_sets.append(of_set)
+    clusters = np.concatenate(of_sets)
     if np.bincount(clusters).max() <= _OWN:
         return None
     return clusters
@@ -76,10 +87,11 @@ def _scores(problem: Problem, fit: Fit, options: FitOptions) -> Array:
     """Whitened errors (M,), with the weights of the loss."""
     found = []
     for k, errors in enumerate(problem.errors(fit.p)):
-        e = fit.noise.whitened(k, errors[..., None])[..., 0]
+        e = fit.noise.whitened_errors(k, errors)
         squares = np.sum(e * e, axis=1)
         weight = loss(options.loss, squares, e.shape[1]).weight
-        found.append((e * weight[:, None]).ravel())
+        weighted = e * weight[:, None]
+        found.append(weighted.ravel())
     return np.concatenate(found)
 
 
@@ -96,14 +108,19 @@ def _meat(Q: Array, scores: Array, clusters: NDArray[np.intp]) -> Array:
     sizes = np.bincount(clusters)
     begins = np.cumsum(sizes) - sizes
     for size in np.unique(sizes[sizes > 0]).tolist():
-        rows = order[begins[sizes == size][:, None] + np.arange(size)]
+        firsts = begins[sizes == size]
+        places = firsts[:, None] + np.arange(size)
+        rows = order[places]
         Q_g = Q[rows]
         back = np.swapaxes(Q_g, 1, 2)
-        values, V = np.linalg.eigh(np.eye(size) - Q_g @ back)
-        e = (np.swapaxes(V, 1, 2) @ scores[rows][..., None])[..., 0]
+        left = np.eye(size) - Q_g @ back
+        values, V = np.linalg.eigh(left)
+        to_own = np.swapaxes(V, 1, 2)
+        e = applied(to_own, scores[rows])
         # of what only one configuration tells, the noise is what it is for the others
-        a = np.where(values > _LEAST, e / np.maximum(values, _LEAST), 1.0)
-        u = (back @ (V @ a[..., None]))[..., 0]
+        raised = e / np.maximum(values, _LEAST)
+        a = np.where(values > _LEAST, raised, 1.0)
+        u = applied(back, applied(V, a))
         total += u.T @ u
     return total
 

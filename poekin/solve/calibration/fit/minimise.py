@@ -102,7 +102,8 @@ class _Damping:
         self._growth = 2.0
         if predicted > 0.0:
             ratio = min(gain / predicted, 1.0)
-            self.value *= max(1.0 / 3.0, 1.0 - (2.0 * ratio - 1.0) ** 3)
+            factor = 1.0 - (2.0 * ratio - 1.0) ** 3
+            self.value *= max(1.0 / 3.0, factor)
 
 
 class _Linear(NamedTuple):
@@ -115,9 +116,12 @@ class _Linear(NamedTuple):
 
 
 class _Valley(NamedTuple):
-    """Weighted Jacobian and errors (M, k + 1) without a prior, and the roots of the loss's weights."""
+    """Weighted Jacobian and errors (M, k + 1) without a prior, the Jacobian without the loss's weights,
+    and the roots (M,) of these.
+    """
 
     rows: Array
+    jacobian: Array
     weights: Array
 
 
@@ -149,14 +153,14 @@ def minimise(
     steps: list[Step] = []
     cost = _cost(objective, p)
     while True:
-        rows, jacobian, weights = _rows(objective, p)
+        valley = _valley(objective, p)
+        jacobian = valley.jacobian
         if cost == 0.0 or len(steps) >= options.max_iterations:
             return Minimum(p, cost == 0.0, steps, jacobian)
-        linear = _triangular(objective, p, rows)
+        linear = _triangular(objective, p, valley.rows)
         triangle = linear.R if options.loss == "linear" else None
         full = _solution(linear, 0.0)
         done = _is_last(linear, cost, full)
-        valley = _Valley(rows, weights)
         z = full
         if damping.value or len(steps) >= _PLAIN:
             z = _bent(objective, p, linear, damping.value, valley)
@@ -167,11 +171,16 @@ def minimise(
                 # what is left cannot be told from rounding, or no direction leads down
                 return Minimum(p, done, steps, jacobian, triangle)
             damping.grow()
-            trial = _trial(objective, p, _bent(objective, p, linear, damping.value, valley))
-        steps.append(Step(cost, norm(trial.z), damping.value))
+            z = _bent(objective, p, linear, damping.value, valley)
+            trial = _trial(objective, p, z)
+        step = Step(cost, norm(trial.z), damping.value)
+        steps.append(step)
         predicted = _predicted(linear, trial.z)
-        slight = predicted < _CHANCE * cost / max(len(rows) - rows.shape[1], 1)
-        done = done or (slight and len(steps) > _SLOW and 0.0 < damping.value < _LIGHT)
+        errors, columns = valley.rows.shape
+        freedom = max(errors - columns, 1)
+        is_slight = predicted < _CHANCE * cost / freedom
+        is_light = 0.0 < damping.value < _LIGHT
+        done = done or (is_slight and is_light and len(steps) > _SLOW)
         damping.fall(cost - trial.cost, predicted)
         p = trial.p
         cost = trial.cost
@@ -196,13 +205,14 @@ def _triangular(objective: _Objective, p: Array, rows: Array) -> _Linear:
 def _is_last(linear: _Linear, cost: float, z: Array) -> bool:
     """Whether the full step z gains next to nothing; a damped one promises little wherever it is."""
     gain = _predicted(linear, z)
-    return bool(gain <= _ENOUGH * cost or np.linalg.norm(z) <= _ROUNDING)
+    return gain <= _ENOUGH * cost or norm(z) <= _ROUNDING
 
 
 def _predicted(linear: _Linear, z: Array) -> float:
     """Gain of a step as the linear problem has it."""
     R, c = linear
-    return float(c @ c - np.sum((R @ z + c) ** 2))
+    left = R @ z + c
+    return float(c @ c - np.sum(left**2))
 
 
 def _trial(objective: _Objective, p: Array, z: Array) -> _Trial:
@@ -229,11 +239,12 @@ def _bent(
     z = _solution(linear, damping)
     if not np.isfinite(z).all():
         return z
-    rows, weights = valley
-    A = rows[:, :-1]
-    here = rows[:, -1]
-    there = weights * _whitened(objective, p + objective.B @ (_AHEAD * z))
-    second = 2.0 / _AHEAD * ((there - here) / _AHEAD - A @ z)
+    A = valley.rows[:, :-1]
+    here = valley.rows[:, -1]
+    ahead = p + objective.B @ (_AHEAD * z)
+    there = valley.weights * _whitened(objective, ahead)
+    slope = (there - here) / _AHEAD
+    second = 2.0 / _AHEAD * (slope - A @ z)
     scales = np.linalg.norm(linear.R, axis=0)
     normal = linear.R.T @ linear.R + damping * np.diag(scales**2)
     a = -0.5 * least_squares(normal, A.T @ second)
@@ -244,8 +255,11 @@ def _bent(
 
 def _whitened(objective: _Objective, p: Array) -> Array:
     """Whitened errors (M,)."""
-    every = enumerate(objective.problem.errors(p))
-    return np.concatenate([objective.noise.whitened(k, e[..., None]).ravel() for k, e in every])
+    found = []
+    for k, errors in enumerate(objective.problem.errors(p)):
+        e = objective.noise.whitened_errors(k, errors)
+        found.append(e.ravel())
+    return np.concatenate(found)
 
 
 def _solution(linear: _Linear, damping: float) -> Array:
@@ -281,8 +295,9 @@ def _exact(problem: Problem, p: Array) -> bool:
 
 
 def _cost(objective: _Objective, p: Array) -> float:
-    of_prior = float(np.sum((objective.inverse_prior * p) ** 2))
-    return misfit(objective.problem, objective.noise, objective.loss, p, of_prior)
+    problem, noise, name, inverse, _ = objective
+    of_prior = np.sum((inverse * p) ** 2)
+    return misfit(problem, noise, name, p, float(of_prior))
 
 
 def misfit(
@@ -301,15 +316,12 @@ def misfit(
     return total
 
 
-def _rows(objective: _Objective, p: Array) -> tuple[Array, Array, Array]:
-    """Weighted Jacobian and errors (M, k + 1), the Jacobian without the loss's weights, and the
-    roots (M,) of these.
-    """
+def _valley(objective: _Objective, p: Array) -> _Valley:
     weighted = []
     plain = []
     roots = []
     for k, (errors, jacobian) in enumerate(objective.problem.linearised(p)):
-        e = objective.noise.whitened(k, errors[..., None])[..., 0]
+        e = objective.noise.whitened_errors(k, errors)
         width = e.shape[1]
         whitened = objective.noise.whitened(k, jacobian)
         stacked = whitened.reshape(-1, jacobian.shape[2])
@@ -324,4 +336,5 @@ def _rows(objective: _Objective, p: Array) -> tuple[Array, Array, Array]:
         weighted.append(rows)
         plain.append(D)
         roots.append(root)
-    return np.concatenate(weighted), np.concatenate(plain), np.concatenate(roots)
+    parts = (weighted, plain, roots)
+    return _Valley(*map(np.concatenate, parts))

@@ -68,6 +68,11 @@ class Noise:
             return W @ errors
         return W * errors
 
+    def whitened_errors(self, k: int, errors: Array) -> Array:
+        """L^-1 times the errors (N, d) of set k."""
+        columns = errors[..., None]
+        return self.whitened(k, columns)[..., 0]
+
     def unwhitened(self, k: int, errors: Array) -> Array:
         """L times whitened errors (N, d) of set k."""
         W = self._whiten[k]

@@ -49,6 +49,19 @@ class PosesAndTwists(NamedTuple):
     D: Array
 
 
+def joint_frames(chain: Chain) -> Array:
+    """Poses (n, 4, 4) of the joints' z-aligned frames in the base at home."""
+    local = chain.local.frames[:-1]
+    poses = list(accumulate(local, np.matmul))
+    return np.reshape(poses, (-1, 4, 4))
+
+
+def across(frames: Array) -> Array:
+    """Twists (n, 6, 4) of the two tilts and then the two shifts across the z axes of frames."""
+    tilts_and_shifts = [0, 1, 3, 4]
+    return se3.adjoint(frames)[..., tilts_and_shifts]
+
+
 class ErrorModel:
     """A chain and those of its parameters p that are free; p = 0 is the chain itself.
 
@@ -71,21 +84,17 @@ class ErrorModel:
         self.kinds = kinds
         self.moving = tuple(compress(nominal.joint_names, chosen))
         self._free = free_parameters(nominal, kinds, chosen)
-        # pose of each joint's z-aligned frame in the base at home
-        local = nominal.local.frames[:-1]
-        poses = list(accumulate(local, np.matmul))
-        frames = np.reshape(poses, (-1, 4, 4))
-        # (n, 6, 4): columns tilt, tilt, shift, shift
-        tilts_and_shifts = [0, 1, 3, 4]
-        self._across = se3.adjoint(frames)[..., tilts_and_shifts]
+        frames = joint_frames(nominal)
+        self._across = across(frames)
         # where each parameter stands in `Errors`, and the parts of these
         masks = [mask.ravel() for mask in self._free]
         self._places = np.flatnonzero(np.concatenate(masks))
         ends = [0, *accumulate(map(len, masks))]
         self._parts = [slice(*pair) for pair in pairwise(ends)]
-        of_joints = np.abs(nominal.coupling[chosen]).sum(axis=0)
+        of_joints = np.abs(nominal.coupling[chosen])
+        coordinates = np.flatnonzero(of_joints.sum(axis=0))
         self.reference: Reference = reference or {}
-        self.terms = make_terms(kinds, nominal, np.flatnonzero(of_joints), self.reference)
+        self.terms = make_terms(kinds, nominal, coordinates, self.reference)
         self._geometric = int(self._places.size)
         self.parameters = names(nominal, self._free, frames)
         for term in self.terms:
@@ -103,8 +112,8 @@ class ErrorModel:
         """The parameters by what they move."""
         every = np.zeros(self._parts[-1].stop)
         every[self._places] = p[: self._geometric]
-        across, *others = (every[part] for part in self._parts)
-        screws = self._across @ across.reshape(-1, 4, 1)
+        of_axes, *others = (every[part] for part in self._parts)
+        screws = self._across @ of_axes.reshape(-1, 4, 1)
         return Errors(screws[..., 0], *others)
 
     def joints(self, p: Array) -> Chain:
@@ -146,12 +155,15 @@ class ErrorModel:
             return np.empty((*q.shape, 0))
         if conditions is None:
             conditions = at_rest(q, self.reference)
-        return np.concatenate([checked_basis(term, q, conditions) for term in self.terms], axis=2)
+        bases = [checked_basis(term, q, conditions) for term in self.terms]
+        return np.concatenate(bases, axis=2)
 
     def true_joints(self, p: Array, q: Array, conditions: Conditions | None = None) -> Array:
         """Values q + B c / (1 + g) (N, m), at which `chain(p)` is where the arm is at readings q."""
-        added = self.basis(q, conditions) @ p[self._geometric :]
-        return q + added / (1.0 + self.errors(p).gains)
+        B = self.basis(q, conditions)
+        added = B @ p[self._geometric :]
+        gains = self.errors(p).gains
+        return q + added / (1.0 + gains)
 
     def values(self, p: Array, q: Array, basis: Array | None = None) -> Array:
         """Joint values x = C ((1 + g) q + o + B c) + c of the readings q (N, m)."""
@@ -171,7 +183,8 @@ class ErrorModel:
         """
         moved = self.joints(p)
         errors = self.errors(p)
-        if self._plain and not (errors.offsets.any() or errors.gains.any()):
+        is_off = errors.offsets.any() or errors.gains.any()
+        if self._plain and not is_off:
             return moved
         arm = self.nominal.replace(
             screws=moved.screws,
@@ -203,9 +216,11 @@ class ErrorModel:
 
         def poses() -> Array:
             moved = self.joints(p)
-            return read_only(moved.fk(self.values(p, q, B)))
+            x = self.values(p, q, B)
+            return read_only(moved.fk(x))
 
-        return self._last_poses(_key(p, q, B), poses)
+        key = _Key.of(p, q, B)
+        return self._last_poses(key, poses)
 
     def poses_and_twists(self, p: Array, q: Array, basis: Array | None = None) -> PosesAndTwists:
         """Poses at the readings q (N, m), and how the parameters move them.
@@ -220,7 +235,8 @@ class ErrorModel:
             D = self._twists(p, q, B)
             return PosesAndTwists(T, read_only(D))
 
-        return self._last_twists(_key(p, q, B), poses_and_twists)
+        key = _Key.of(p, q, B)
+        return self._last_twists(key, poses_and_twists)
 
     def _twists(self, p: Array, q: Array, basis: Array) -> Array:
         """Space twists (N, 6, P) per unit of each parameter."""
@@ -266,11 +282,19 @@ class ErrorModel:
     def _moves(self, eta: Array) -> Array:
         """Twists (n, 6, k) d(e^eta) e^-eta of the joints' screws per unit of each tilt and shift."""
         moves = se3.left_jacobian(eta) @ self._across
-        own = np.eye(len(eta))[:, None, :, None]
-        of_all = moves[:, :, None] * own
+        own = np.eye(len(eta))
+        of_all = moves[:, :, None] * own[:, None, :, None]
         return of_all[:, :, self._free.screws]
 
 
-def _key(p: Array, q: Array, basis: Array) -> tuple[bytes, int, bytes, bytes]:
-    """Key of parameters, readings (N, m) and basis: without coordinates N tells readings apart."""
-    return p.tobytes(), len(q), q.tobytes(), basis.tobytes()
+class _Key(NamedTuple):
+    """Parameters, readings (N, m) and basis: without coordinates N tells readings apart."""
+
+    p: bytes
+    N: int
+    q: bytes
+    basis: bytes
+
+    @classmethod
+    def of(cls, p: Array, q: Array, basis: Array) -> _Key:
+        return cls(p.tobytes(), len(q), q.tobytes(), basis.tobytes())

@@ -36,6 +36,19 @@ class MeasuredPoints(NamedTuple):
     errors: Array
 
 
+class _PosedSet(NamedTuple):
+    """A set of measurements at rows of q, the poses there (N, 4, 4), and its unknown frames."""
+
+    measured: Measurement
+    rows: Rows
+    T: Array
+    frames: list[Array]
+
+    @property
+    def errors(self) -> Array:
+        return self.measured.errors(self.T, self.frames)
+
+
 class Problem:
     """An error model, the readings q, sets of measurements, and their unknown frames at p = 0.
 
@@ -92,7 +105,8 @@ class Problem:
         return slice(end - self.basis.shape[2], end)
 
     def _in_order(self, q: Array) -> Array:
-        return self.model.basis(q, in_order(q, self.model.reference))
+        conditions = in_order(q, self.model.reference)
+        return self.model.basis(q, conditions)
 
     def _guesses(self) -> list[Array]:
         """Initial guesses of the unknown frames: of those that sets share, by the largest set."""
@@ -101,11 +115,12 @@ class Problem:
         parts = list(zip(self.sets, self._own, self.rows, strict=True))
         parts.sort(key=lambda part: -len(part[0]))
         for s, own, rows in parts:
-            known = [
-                unknown._replace(guess=found.get(name, unknown.guess))
-                for name, unknown in zip(own, s.unknown_frames, strict=True)
-            ]
-            guesses = s.with_unknown_frames(known).guesses(T[rows])
+            known = []
+            for name, unknown in zip(own, s.unknown_frames, strict=True):
+                guess = found.get(name, unknown.guess)
+                known.append(unknown._replace(guess=guess))
+            with_guesses = s.with_unknown_frames(known)
+            guesses = with_guesses.guesses(T[rows])
             found |= dict(zip(own, guesses, strict=True))
         return [found[name] for name in self.frame_names]
 
@@ -128,7 +143,8 @@ class Problem:
         """The unknown frames (4, 4) and points (3,) at p, by name."""
         values = {}
         for frame, name in zip(self.initial_frames, self._parts, strict=True):
-            values[name] = _moved(frame, p[self._parts[name]])
+            eta = p[self._parts[name]]
+            values[name] = _moved(frame, eta)
         return values
 
     def _frames_of_sets(self, p: Array) -> list[list[Array]]:
@@ -152,19 +168,21 @@ class Problem:
         all_rows = []
         all_places = []
         all_errors = []
-        for (s, T, frames), rows in zip(self._at(p), self.rows, strict=True):
-            places, errors = places_and_errors(s, T, frames)
-            all_rows.append(np.repeat(rows, errors.shape[1]))
+        for posed in self._at(p):
+            places, errors = places_and_errors(posed.measured, posed.T, posed.frames)
+            count = errors.shape[1]
+            all_rows.append(np.repeat(posed.rows, count))
             all_places.append(places.reshape(-1, 3))
             all_errors.append(errors.reshape(-1, 3))
-        return MeasuredPoints(*map(np.concatenate, (all_rows, all_places, all_errors)))
+        parts = (all_rows, all_places, all_errors)
+        return MeasuredPoints(*map(np.concatenate, parts))
 
-    def _at(self, p: Array) -> Iterator[tuple[Measurement, Array, list[Array]]]:
+    def _at(self, p: Array) -> Iterator[_PosedSet]:
         """Each set with the poses of its readings and its unknown frames."""
         T = self.model.poses(self._of_model(p), self.q, self.basis)
-        frames_of_sets = self._frames_of_sets(p)
-        for s, rows, frames in zip(self.sets, self.rows, frames_of_sets, strict=True):
-            yield s, T[rows], frames
+        for k, frames in enumerate(self._frames_of_sets(p)):
+            rows = self.rows[k]
+            yield _PosedSet(self.sets[k], rows, T[rows], frames)
 
     def _of_model(self, p: Array) -> Array:
         """The error model's part of the parameters."""
@@ -176,7 +194,7 @@ class Problem:
         return self._last_errors(key, lambda: self._errors(p))
 
     def _errors(self, p: Array) -> list[Array]:
-        return [read_only(s.errors(T, frames)) for s, T, frames in self._at(p)]
+        return [read_only(posed.errors) for posed in self._at(p)]
 
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their Jacobian."""
@@ -204,24 +222,16 @@ class Problem:
             every = np.arange(len(q))
             rows = [every] * len(self.sets)
         if errors is None:
-            shapes = [(len(r), s.width) for r, s in zip(rows, self.sets, strict=True)]
+            pairs = zip(rows, self.sets, strict=True)
+            shapes = [(len(here), s.width) for here, s in pairs]
             errors = list(map(np.zeros, shapes))
         T, D = self.model.poses_and_twists(self._of_model(p), q, basis)
         found = []
         for k, frames in enumerate(self._frames_of_sets(p)):
             here = rows[k]
-            off = errors[k]
-            of_model, of_frames = self.sets[k].jacobian(T[here], frames, off, D[here])
-            jacobian = np.zeros((*off.shape, self.size))
-            jacobian[..., : self.model_size] = of_model
-            own = self._own[k]
-            for name, of_frame in zip(own, of_frames, strict=True):
-                part = self._parts[name]
-                if of_frame.shape[2] == 6:
-                    # at T e^eta with eta != 0 the frame moves by J_r(eta) d eta
-                    of_frame = of_frame @ se3.right_jacobian(p[part])
-                jacobian[..., part] = of_frame
-            found.append(jacobian)
+            jacobian = self.sets[k].jacobian(T[here], frames, errors[k], D[here])
+            parts = [self._parts[name] for name in self._own[k]]
+            found.append(in_all_parameters(*jacobian, parts, p))
         return found
 
     def part(self, chosen: Rows) -> Problem:
@@ -242,6 +252,24 @@ class Problem:
         )
         part.scale = self.scale
         return part
+
+
+def in_all_parameters(
+    of_model: Array,
+    of_frames: Sequence[Array],
+    parts: Sequence[slice | list[int]],
+    p: Array,
+) -> Array:
+    """Jacobian (N, d, P) in all parameters, of those in the model's and in each frame's part of p."""
+    N, d, count = of_model.shape
+    jacobian = np.zeros((N, d, len(p)))
+    jacobian[..., :count] = of_model
+    for part, of_frame in zip(parts, of_frames, strict=True):
+        if of_frame.shape[2] == 6:
+            # at T e^eta with eta != 0 the frame moves by J_r(eta) d eta
+            of_frame = of_frame @ se3.right_jacobian(p[part])
+        jacobian[..., part] = of_frame
+    return jacobian
 
 
 def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:

@@ -55,7 +55,8 @@ class Folds(NamedTuple):
         rng = np.random.default_rng(self.seed)
         order = rng.permutation(label.max() + 1)
         found = np.empty(len(order), np.intp)
-        for k, drawn in enumerate(np.array_split(order, self.count)):
+        parts = np.array_split(order, self.count)
+        for k, drawn in enumerate(parts):
             found[drawn] = k
         return found
 
@@ -82,7 +83,8 @@ class LinearFit:
         label = configurations(problem.q)
         self._groups = [label[rows] for rows in problem.rows]
         rows = self._weighted(fit.p, name)
-        every = np.concatenate(list(directions.values()), axis=1)
+        groups = list(directions.values())
+        every = np.concatenate(groups, axis=1)
         columns = blocked_product(rows[:, :-1], every)
         sizes = np.linalg.norm(columns, axis=0)
         columns /= np.where(sizes > 0.0, sizes, 1.0)
@@ -92,15 +94,17 @@ class LinearFit:
         s = s[kept]
         Vt = Vt[kept]
         self._Q = blocked_product(columns, Vt.T / s)
-        widths = [D.shape[1] for D in directions.values()]
+        widths = [D.shape[1] for D in groups]
         *inner, _ = np.cumsum(widths)
         in_Q = s[:, None] * Vt
         parts = np.split(in_Q, inner, axis=1)
         self._columns = dict(zip(directions, parts, strict=True))
         self._b = rows[:, -1]
-        pairs = zip(self._groups, problem.sets, strict=True)
         of_configuration = folds.of(label)
-        numbers = [np.repeat(of_configuration[group], s.width) for group, s in pairs]
+        numbers = []
+        for group, s in zip(self._groups, problem.sets, strict=True):
+            of_readings = of_configuration[group]
+            numbers.append(np.repeat(of_readings, s.width))
         fold = np.concatenate(numbers)
         self._folds = [np.flatnonzero(fold == k) for k in range(folds.count)]
 
@@ -115,8 +119,10 @@ class LinearFit:
             weight = loss(name, squares, errors.shape[1]).weight
             self._weights.append(weight)
             root = np.sqrt(weight)
-            rows = np.concatenate([J, e], axis=2) * root[:, None, None]
-            found.append(rows.reshape(-1, rows.shape[2]))
+            stacked = np.concatenate([J, e], axis=2)
+            rows = stacked * root[:, None, None]
+            width = rows.shape[2]
+            found.append(rows.reshape(-1, width))
         return np.concatenate(found)
 
     @property
@@ -144,7 +150,8 @@ class LinearFit:
             own = self._Q[rows]
             QW = blocked_product(own, W)
             left = np.eye(W.shape[1]) - QW.T @ QW
-            least = np.linalg.eigvalsh(left).min(initial=1.0)
+            values = np.linalg.eigvalsh(left)
+            least = values.min(initial=1.0)
             if least < _INDEPENDENT:
                 return None
             of_others = total - own.T @ r[rows]
@@ -153,27 +160,34 @@ class LinearFit:
         return self._by_configuration(r)
 
     def _by_configuration(self, r: Array) -> HeldOut:
-        count = 1 + max(int(g.max()) for g in self._groups)
+        last = max(int(g.max()) for g in self._groups)
+        count = last + 1
         whitened = np.zeros(count)
         lengths = np.zeros(count)
         numbers = np.zeros(count)
         measured = np.zeros(count)
         begin = 0
-        for k, (s, group) in enumerate(zip(self._problem.sets, self._groups, strict=True)):
-            end = begin + len(s) * s.width
-            e = r[begin:end].reshape(len(s), s.width)
-            begin = end
+        for k, s in enumerate(self._problem.sets):
+            group = self._groups[k]
             weight = self._weights[k]
+            end = begin + len(s) * s.width
+            own = r[begin:end]
+            e = own.reshape(len(s), s.width)
+            begin = end
             known = weight > 0
             squares = np.sum(e * e, axis=1)
             np.add.at(whitened, group, squares)
             np.add.at(numbers, group, known * s.width)
-            roots = np.sqrt(np.where(known, weight, 1.0))
-            raw = self._noise.unwhitened(k, e / roots[:, None])
+            weights = np.where(known, weight, 1.0)
+            roots = np.sqrt(weights)
+            unweighted = e / roots[:, None]
+            raw = self._noise.unwhitened(k, unweighted)
             linear = raw[:, s.angular :]
             points = max(1, linear.shape[1] // 3)
             of_points = norms(linear) ** 2 / points
             np.add.at(lengths, group, of_points * known)
             np.add.at(measured, group, known)
         seen = measured > 0
-        return HeldOut(whitened[seen] / numbers[seen], lengths[seen] / measured[seen])
+        whitened = whitened[seen] / numbers[seen]
+        lengths = lengths[seen] / measured[seen]
+        return HeldOut(whitened, lengths)

@@ -40,11 +40,11 @@ def bent(second: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
         return [(A @ p + b + np.array([second, 0, 0, 0, 0]) * (p @ p) / 2)[:, None]]
 
     problem: Any = type("Problem", (), {"errors": staticmethod(errors)})
-    noise: Any = type("Noise", (), {"whitened": staticmethod(lambda k, e: e)})
+    noise: Any = type("Noise", (), {"whitened_errors": staticmethod(lambda k, e: e)})
     objective = minimising._Objective(problem, noise, "linear", np.zeros(2), np.eye(2))
     Q, R = np.linalg.qr(A)
     linear = _Linear(R, Q.T @ b)
-    valley = _Valley(np.column_stack([A, b]), np.ones(5))
+    valley = _Valley(np.column_stack([A, b]), A, np.ones(5))
     plain = minimising._solution(linear, damping)
     found = _bent(objective, np.zeros(2), linear, damping, valley)
     D = np.diag(np.sum(R**2, axis=0))
