@@ -120,7 +120,7 @@ def command(
     """
     array_files.check_apart([output], model=file)
     if output is not None:
-        map_files.ending(output, "--output")
+        map_files.check_place(output, "--output")
     if resume and store is None:
         raise InputError(
             "--resume: expected with --store and the directory of the run to go on with"

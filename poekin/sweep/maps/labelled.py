@@ -36,15 +36,23 @@ def dataset(kept: KeptMap, cells: Cells) -> Any:
     return xarray.Dataset(variables, coordinates, attributes)
 
 
+def check_place(path: Path) -> None:
+    """Refuses a place that could not become a map. Raises: InputError, MissingExtra."""
+    _xarray()
+    _zarr()
+    if path.exists() and not _holds_map(path):
+        raise InputError(
+            f"{quote(os.fspath(path), 300)} is there already, and holds no map of a sweep"
+        )
+
+
 def write_zarr(path: str | os.PathLike[str], kept: KeptMap, cells: Cells) -> None:
-    """Writes a directory, which appears whole or not at all; an old map is replaced. Raises:
-    FileError, InputError, MissingExtra.
+    """Writes a directory, which appears whole or not at all; an old map is replaced, and stays until
+    then. Raises: FileError, InputError, MissingExtra.
     """
     target = Path(path)
+    check_place(target)
     labelled = dataset(kept, cells)
-    _zarr()
-    if target.exists() and not _holds_map(target):
-        raise InputError(f"{quote(os.fspath(path))} is there already, and holds no map of a sweep")
     mark = secrets.token_hex(8)
     written = target.with_name(f".{target.name[:50]}.{mark}.part")
     old = target.with_name(f".{target.name[:50]}.{mark}.old")
@@ -54,10 +62,12 @@ def write_zarr(path: str | os.PathLike[str], kept: KeptMap, cells: Cells) -> Non
             target.rename(old)
         written.rename(target)
     except OSError as error:
-        raise FileError(f"{path}: {error.strerror}") from error
+        if old.exists():
+            old.rename(target)
+        raise FileError(f"{path}: {error.strerror or error}") from error
     finally:
         shutil.rmtree(written, ignore_errors=True)
-        shutil.rmtree(old, ignore_errors=True)
+    shutil.rmtree(old, ignore_errors=True)
 
 
 def read_zarr(path: str | os.PathLike[str]) -> KeptMap:

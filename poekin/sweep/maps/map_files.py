@@ -50,11 +50,25 @@ def read(path: str | os.PathLike[str]) -> KeptMap:
         raise FileError(f"{path}: {_NO_MAP}") from error
 
 
+def check_place(path: str | os.PathLike[str], what: str) -> None:
+    """Refuses a place that a map could not be written to, before any work is done. Raises: FileError,
+    InputError, MissingExtra.
+    """
+    is_zarr = ending(path, what) == ".zarr"
+    place = Path(path)
+    if not place.parent.is_dir():
+        raise FileError(f"{what}: there is no directory {quote(os.fspath(place.parent), 300)}")
+    if is_zarr:
+        labelled.check_place(place)
+    elif place.is_dir():
+        raise FileError(f"{what}: {quote(os.fspath(path), 300)} is a directory")
+
+
 def ending(path: str | os.PathLike[str], what: str = "path") -> str:
     """The ending of a map's path. Raises: InputError, if it is none of these."""
     found = Path(path).suffix
     if found not in ENDINGS:
         raise InputError(
-            f"{what}: expected a .npz file or a .zarr directory, got {quote(os.fspath(path))}"
+            f"{what}: expected a .npz file or a .zarr directory, got {quote(os.fspath(path), 300)}"
         )
     return found

@@ -174,7 +174,7 @@ class PoseUncertainty(Measure):
         Raises
         ------
         InputError
-            If gains or pitches were estimated.
+            If gains, pitches or non-geometric terms were estimated.
         """
         return cls(_tuples(calibration_sources(found)), part)
 

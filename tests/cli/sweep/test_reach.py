@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import get_args
 
 import numpy as np
@@ -102,6 +103,25 @@ def test_a_store_is_gone_on_with_where_it_is_asked(tmp_path, poekin, refused):
 )
 def test_what_cannot_be_used_is_refused(words, expected, refused):
     assert expected in refused("sweep", "reach", "ur5e", *words)
+
+
+def test_a_map_that_could_not_be_written_is_refused_before_the_sweep(
+    tmp_path, refused, monkeypatch
+):
+    monkeypatch.setattr("poekin.cli.sweep.reach.reach", None)
+    (tmp_path / "taken.npz").mkdir()
+    for place, words in (
+        (tmp_path / "none" / "map.npz", "--output: there is no directory"),
+        (tmp_path / "taken.npz", "taken.npz' is a directory"),
+    ):
+        assert words in refused("sweep", "reach", "ur5e", "--output", str(place))
+    pytest.importorskip("zarr", reason="no zarr: no .zarr was refused")
+    (tmp_path / "taken.zarr").mkdir()
+    message = refused("sweep", "reach", "ur5e", "--output", str(tmp_path / "taken.zarr"))
+    assert "is there already, and holds no map of a sweep" in message
+    monkeypatch.setitem(sys.modules, "zarr", None)
+    message = refused("sweep", "reach", "ur5e", "--output", str(tmp_path / "map.zarr"))
+    assert "poekin[sweep]" in message
 
 
 def test_a_map_is_not_written_over_the_model_and_what_is_no_map_is_refused(tmp_path, refused):

@@ -148,6 +148,13 @@ def test_on_a_full_disk_parts_that_were_done_stay(tmp_path, monkeypatch):
     ]
 
 
+@pytest.mark.parametrize(("side", "samples"), [(1, 2**22), (16, 4 * 12 * 16**2 * 8**3)])
+def test_a_part_has_four_samples_for_each_cell_and_four_million_at_least(tmp_path, side, samples):
+    cells = Cells.box([-1] * 3, [1] * 3, 0.25, side=side)
+    run(Sweep(ARM, Random.of(ARM, 10), cells), workers=1, store=tmp_path)
+    assert json.loads((tmp_path / "sweep.json").read_text())["chunk"] == samples
+
+
 def test_the_head_says_what_the_sweep_is(tmp_path):
     run(SWEEP, chunk=1000, store=tmp_path)
     head = json.loads((tmp_path / "sweep.json").read_text())

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -102,6 +105,24 @@ def test_a_map_that_cannot_be_written_leaves_nothing(tmp_path, name):
     with pytest.raises(FileError, match=r"map\."):
         MEASURED.save(tmp_path / "none" / name)
     assert [file.name for file in tmp_path.iterdir()] == ["none"]
+
+
+def test_an_old_map_stays_where_the_new_one_cannot_take_its_place(tmp_path, monkeypatch):
+    pytest.importorskip("zarr", reason="no zarr: no .zarr was written")
+    place = tmp_path / "map.zarr"
+    COUNTED.save(place)
+    rename = Path.rename
+
+    def refused(self, target):
+        if self.name.endswith(".part"):
+            raise OSError(errno.EACCES, os.strerror(errno.EACCES))
+        return rename(self, target)
+
+    monkeypatch.setattr(Path, "rename", refused)
+    with pytest.raises(FileError, match=r"map\.zarr: Permission denied"):
+        MEASURED.save(place)
+    assert load_map(place).counts.tobytes() == COUNTED.counts.tobytes()
+    assert [file.name for file in tmp_path.iterdir()] == ["map.zarr"]
 
 
 @pytest.mark.parametrize("package", ["xarray", "zarr"])
