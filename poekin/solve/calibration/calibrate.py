@@ -32,7 +32,7 @@ from .fit.losses import LOSSES, OUTLIER, LossName, chi_square
 from .fit.minimise import STEPS, FitOptions
 from .fit.refit import fit_with_refit
 from .measurements.inputs import parse_measurements, parse_readings
-from .model.configurations import configurations
+from .model.configurations import Folds, configurations
 from .model.error_model import ErrorModel
 from .model.parameters import ParameterKind, Unit
 from .model.problem import MeasuredPoints, Problem
@@ -40,7 +40,6 @@ from .model.residuals import Residuals
 from .result import Outlier
 from .selection import choose_terms
 from .selection.choose_terms import CANDIDATES
-from .selection.held_out import Folds
 from .selection.term_gain import TermGain
 from .terms.conditions import parse_conditions
 from .terms.named import TermName

@@ -91,7 +91,7 @@ class CalibrationData(Result):
         -------
         C : (..., 6, 6) ndarray
             Covariance of the tip's rotation vector and position errors, both in base axes, rad² and
-            m². It knows what was fitted only: neither what was fixed, nor joints that bend.
+            m². It knows what was fitted only: neither what was fixed, nor what no parameter describes.
 
         Raises
         ------

@@ -15,7 +15,7 @@ from ..fit.fitting import fit_frames
 from ..fit.minimise import FitOptions
 from ..fit.refit import fit_with_refit
 from ..measurements.measurement import Rows
-from ..model.configurations import configurations
+from ..model.configurations import Folds, configurations
 from ..model.problem import Problem
 from ..model.residuals import Residuals, concatenate
 
@@ -54,7 +54,7 @@ def cross_validate(
     """The readings in folds drawn at random, equal and nearly equal ones in the same; unknown frames
     are those of the other folds, too.
     """
-    fold = _folds(problem.q, folds, seed)
+    fold = Folds(folds, seed).of(configurations(problem.q))
     before = []
     after = []
     for k in range(folds):
@@ -71,19 +71,6 @@ def cross_validate(
     if progress is not None:
         progress(folds, folds)
     return CrossValidation(concatenate(before), concatenate(after), folds)
-
-
-def _folds(q: Array, folds: int, seed: int) -> Rows:
-    """Fold (N,) of each of the readings, drawn by their configurations."""
-    label = configurations(q)
-    _, first = np.unique(label, return_index=True)
-    order = np.random.default_rng(seed).permutation(len(q))
-    # each configuration as its first reading is drawn
-    order = label[order[np.isin(order, first)]]
-    found = np.empty(len(first), np.intp)
-    for k, drawn in enumerate(np.array_split(order, folds)):
-        found[drawn] = k
-    return found[label]
 
 
 def _held_out_residuals(test: Problem, p: Array, chosen: Rows) -> Residuals:

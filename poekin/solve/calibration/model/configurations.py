@@ -1,6 +1,10 @@
-"""Configurations of readings: which rows of q are the same, but for what joints scatter by."""
+"""Configurations of readings: which rows of q are the same, but for what joints scatter by; and the
+folds that they are drawn into.
+"""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,3 +33,21 @@ def configurations(q: Array) -> NDArray[np.intp]:
     rank = np.empty(len(first), np.intp)
     rank[np.argsort(first)] = np.arange(len(first))
     return rank[label]
+
+
+class Folds(NamedTuple):
+    """Number of folds, and the seed by which configurations are drawn into them."""
+
+    count: int
+    seed: int
+
+    def of(self, label: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Fold (N,) of each reading; label (N,), its configuration."""
+        _, first = np.unique(label, return_index=True)
+        order = np.random.default_rng(self.seed).permutation(len(label))
+        # each configuration as its first reading is drawn
+        order = label[order[np.isin(order, first)]]
+        found = np.empty(len(first), np.intp)
+        for k, drawn in enumerate(np.array_split(order, self.count)):
+            found[drawn] = k
+        return found[label]

@@ -11,12 +11,13 @@ import numpy as np
 from ....groups.arrays import Array
 from ..fit.fitting import Fit
 from ..fit.losses import LossName
+from ..model.configurations import Folds
 from ..model.error_model import ErrorModel
 from ..model.problem import Problem
 from ..terms.conditions import Conditions
 from ..terms.named import BUILDERS
 from ..terms.term import Term, name_of
-from .held_out import Folds, HeldOut, LinearFit
+from .held_out import HeldOut, LinearFit
 from .term_gain import TermGain
 
 CANDIDATES = ("compliance", "gains", *(name for name in BUILDERS if name != "compliance"))

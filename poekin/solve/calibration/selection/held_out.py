@@ -6,13 +6,12 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....groups.arrays import Array
 from ....groups.vectors import norms
 from ..fit.fitting import Fit
 from ..fit.losses import LossName, loss
-from ..model.configurations import configurations
+from ..model.configurations import Folds, configurations
 from ..model.problem import Problem
 from ..model.tsqr import blocked_product, qr_r
 
@@ -42,23 +41,6 @@ class HeldOut(NamedTuple):
         """Root mean square error, m."""
         mean = np.mean(self.lengths)
         return float(np.sqrt(mean))
-
-
-class Folds(NamedTuple):
-    """Number of folds, and the seed by which configurations are drawn into them."""
-
-    count: int
-    seed: int
-
-    def of(self, label: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Fold of each configuration; label (N,), the configuration of each reading."""
-        rng = np.random.default_rng(self.seed)
-        order = rng.permutation(label.max() + 1)
-        found = np.empty(len(order), np.intp)
-        parts = np.array_split(order, self.count)
-        for k, drawn in enumerate(parts):
-            found[drawn] = k
-        return found
 
 
 class LinearFit:
@@ -100,11 +82,10 @@ class LinearFit:
         parts = np.split(in_Q, inner, axis=1)
         self._columns = dict(zip(directions, parts, strict=True))
         self._b = rows[:, -1]
-        of_configuration = folds.of(label)
+        of_readings = folds.of(label)
         numbers = []
-        for group, s in zip(self._groups, problem.sets, strict=True):
-            of_readings = of_configuration[group]
-            numbers.append(np.repeat(of_readings, s.width))
+        for own, measured in zip(problem.rows, problem.sets, strict=True):
+            numbers.append(np.repeat(of_readings[own], measured.width))
         fold = np.concatenate(numbers)
         self._folds = [np.flatnonzero(fold == k) for k in range(folds.count)]
 

@@ -11,10 +11,11 @@ from poekin.solve.calibration import Points, Poses, calibrate
 from poekin.solve.calibration.diagnostics.identification import identify_directions
 from poekin.solve.calibration.fit.fitting import fit_parameters
 from poekin.solve.calibration.fit.minimise import FitOptions
+from poekin.solve.calibration.model.configurations import Folds
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 from poekin.solve.calibration.selection.choose_terms import candidates, choose, gains
-from poekin.solve.calibration.selection.held_out import Folds, LinearFit
+from poekin.solve.calibration.selection.held_out import LinearFit
 from poekin.solve.calibration.terms.conditions import parse_conditions
 from tests.solve.calibration.terms.sagging import arm, case
 
