@@ -31,6 +31,7 @@ SLOW = (
     # browsers, notebooks, pages of the documentation, compilers
     *("test_notebooks.py", "test_docs.py", "view/browser", "view/web", "view/test_kinematics.py"),
     *("formats/emit_ik/test_c_ik.py", "formats/test_emit_c.py"),
+    *("formats/emit_sweep/test_cuda.py", "formats/emit_sweep/test_by_jax.py"),
     # processes, one or many a test
     *("cli/test_pipes.py", "cli/test_run.py", "cli/test_conform.py", "cli/test_from_ros.py"),
     *("engine/jit/test_cache.py", "test_examples.py", "tools/test_fuzz.py", "tools/test_mutate.py"),

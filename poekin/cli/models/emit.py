@@ -1,9 +1,12 @@
-"""`poekin emit`: an arm's kinematics as C for a controller, Python for arrays, JavaScript for a page."""
+"""`poekin emit`: an arm's kinematics as C for a controller, Python for arrays, JavaScript for a page,
+CUDA and JAX for accelerators.
+"""
 
 from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -25,8 +28,22 @@ from ..model import origin as model_origin
 from ..output import path_text, say
 
 FRAMES = (*FRAME_NAMES, "cheapest")
-ENDINGS = {"c": (), "python": (".py",), "javascript": (".js", ".mjs")}
+ENDINGS = {
+    "c": (),
+    "python": (".py",),
+    "javascript": (".js", ".mjs"),
+    "cuda": (".cu",),
+    "jax": (".py",),
+}
 """Languages, and how the one file of theirs may end."""
+WRITERS: dict[str, tuple[Callable[..., str | emit.CSource], tuple[str, ...]]] = {
+    "c": (emit.c, ("name", "real", "origin")),
+    "python": (emit.python, ("origin",)),
+    "javascript": (emit.javascript, ("origin",)),
+    "cuda": (emit.cuda, ("name", "precision", "measure", "origin")),
+    "jax": (emit.jax, ("precision", "measure", "origin")),
+}
+"""What writes a language, and the options that it takes."""
 NUMBERS: dict[bool, emit.Real] = {False: "double", True: "float"}
 FRAME_HELP = "The Jacobian's: space | body | hybrid | cheapest (an intermediate link frame) | K (of joint K, from 0)."
 
@@ -34,18 +51,31 @@ Language = Annotated[
     str,
     Option(
         "--lang",
-        help="c (C99, math.h only) | python (NumPy, JAX, PyTorch arrays) | javascript (a module).",
+        help="c (C99, math.h only) | python (NumPy, JAX, PyTorch arrays) | javascript (a module) | "
+        "cuda, jax (batches, and the sweep of a workspace).",
     ),
 ]
 Output = Annotated[
     Path,
     Option(
         "--output",
-        help="A directory for the files (made where there is none); or a .py for python, a .js or .mjs for javascript.",
+        help="A directory for the files (made where there is none); or a .py for python or jax, a .js or .mjs for "
+        "javascript, a .cu for cuda.",
     ),
 ]
 Frame = Annotated[str | None, Option("--frame", help=f"{FRAME_HELP} Default: hybrid.")]
 Single = Annotated[bool, Option("--float/--double", help="C only: the type of its numbers.")]
+Precision = Annotated[
+    str | None,
+    Option("--precision", help="CUDA and JAX only: float64 (default) | float32, of the numbers."),
+]
+Kept = Annotated[
+    str | None,
+    Option(
+        "--measure",
+        help="CUDA and JAX only: reach (counts, default) | manipulability (the best of each cell too).",
+    ),
+]
 Name = Annotated[
     str | None,
     Option(
@@ -80,6 +110,8 @@ def command(
     frame: Frame = None,
     all_links: AllLinks = False,
     single: Single = False,
+    precision: Precision = None,
+    measure: Kept = None,
     name: Name = None,
     idealise: Idealise = None,
     inverse: InverseKinematics = False,
@@ -97,6 +129,8 @@ def command(
         )
     if inverse:
         _check_inverse(language, {"--frame": frame, "--float": single, "--all-links": all_links})
+    accelerated = {"precision": precision, "measure": measure}
+    _check_accelerated(language, accelerated)
     robot = model(file)
     origin = _origin(file, robot)
     name = robot.name if name is None else name
@@ -115,7 +149,8 @@ def command(
             texts = emit.c_ik(chain, name=name, origin=origin).files
         else:
             which = parse_frame("hybrid" if frame is None else frame, FRAMES)
-            texts = _texts(chain, language, which, name, single, origin)
+            options = {"real": NUMBERS[single], "origin": origin, **accelerated}
+            texts = _texts(chain, language, which, name, options)
     places, directory = _places(output, language, texts)
     array_files.check_apart(places, model=file)
     _write(places, directory, force)
@@ -138,14 +173,16 @@ def _texts(
     language: str,
     frame: Any,
     name: str,
-    single: bool,
-    origin: str,
+    options: dict[str, Any],
 ) -> dict[str, str]:
     """Texts by the names of their files."""
-    if language == "c":
-        return emit.c(chain, frame, name=name, real=NUMBERS[single], origin=origin).files
-    write = {"python": emit.python, "javascript": emit.javascript}[language]
-    return {_file_name(name, language): write(chain, frame, origin=origin)}
+    options["name"] = name
+    write, takes = WRITERS[language]
+    given = {option: options[option] for option in takes if options[option] is not None}
+    text = write(chain, frame, **given)
+    if isinstance(text, str):
+        return {_file_name(name, language): text}
+    return text.files
 
 
 def _file_name(name: str, language: str) -> str:
@@ -161,6 +198,13 @@ def _check_inverse(language: str, others: dict[str, object]) -> None:
     for option, value in others.items():
         if value:
             raise InputError(f"--ik: expected without {option}, which is of pose and Jacobian")
+
+
+def _check_accelerated(language: str, options: dict[str, str | None]) -> None:
+    """Refuses options of a sweep in a language that has none."""
+    for option, value in options.items():
+        if value is not None and language not in ("cuda", "jax"):
+            raise InputError(f"--{option}: expected together with --lang cuda or jax only")
 
 
 def _check_all_links(language: str, of_chain: dict[str, object]) -> None:

@@ -131,6 +131,16 @@ def _traced(
     return program(trace.graph, trace.angles, outputs)
 
 
+def measured_program(arm: Structure) -> Program:
+    """The cheapest program of an arm's pose and the square of its manipulability, in whatever frame: of
+    six coordinates or more it is the same in all.
+    """
+    if arm.coordinates < _ROWS:
+        return manipulability_program(arm, "hybrid")
+    k, h = cheapest_frame(arm)
+    return manipulability_program(with_frame_at(arm, k, h), k)
+
+
 def manipulability_program(arm: Structure, frame: str | int) -> Program:
     """The cheapest program of an arm's pose and det(J Jᵀ), or det(Jᵀ J) with fewer than six
     coordinates, of the Jacobian in a frame. Outputs: the twelve numbers of the pose, the

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 
 @dataclass(frozen=True)
 class CScalar:
@@ -20,6 +22,8 @@ class CScalar:
 DOUBLE = CScalar("double", "d")
 INT = CScalar("int", "i")
 BOOL = CScalar("int", "b")
+WORD = CScalar("unsigned long long", "w")
+"""np.uint64: 64 bits, of which sums and products keep the last ones."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +72,8 @@ def unify(a: CType, b: CType) -> CType | None:
     """Type that holds values of both, or None."""
     if a == b:
         return a
+    if WORD in (a, b):
+        return None
     if isinstance(a, CScalar) and isinstance(b, CScalar):
         return DOUBLE if DOUBLE in (a, b) else INT
     if isinstance(a, CTuple) and isinstance(b, CTuple) and len(a.items) == len(b.items):
@@ -86,6 +92,8 @@ def type_of_constant(value: object) -> CType | None:
         return INT
     if isinstance(value, float):
         return DOUBLE
+    if type(value) is np.uint64:
+        return WORD
     if isinstance(value, tuple) and value:
         items = [type_of_constant(item) for item in value]
         found = tuple(item for item in items if item is not None)

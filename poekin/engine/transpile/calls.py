@@ -8,8 +8,10 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from ...formulas import elementary
-from .c_types import BOOL, DOUBLE, INT, CScalar, CTable, CTuple, CType
+from .c_types import BOOL, DOUBLE, INT, WORD, CScalar, CTable, CTuple, CType
 from .expressions import ExpressionWriter
 from .function_source import FunctionSource
 from .values import (
@@ -38,6 +40,7 @@ _MATHEMATICAL: dict[Any, str] = {
     math.asin: "asin",
     math.atan2: "atan2",
     math.copysign: "copysign",
+    math.floor: "floor",  # a double here: of a large number too
     abs: "fabs",
 }
 
@@ -140,6 +143,10 @@ class CallWriter(ExpressionWriter):
         made = self.make_tuple([self.constant(tree, item, "") for item in value])
         return self.units.tuple_constant(self.source.function, name, made)
 
+    def helper(self, name: str) -> str:
+        """C name of a function of two numbers that C has not."""
+        return self.units.helper(name)
+
     def maximum(self, node: ast.Call, values: list[CValue], name: str) -> CValue:
         """max or min as Python has them: a NaN that stands first stays, another is passed over."""
         numbers = all(is_number(value.type) for value in values)
@@ -154,7 +161,7 @@ class CallWriter(ExpressionWriter):
                 test = binary(sign, b, a, BOOL, LESS)
                 result = CValue(INT, f"({test.text} ? {b.text} : {a.text})", UNARY)
             else:
-                helper = self.units.helper(name)
+                helper = self.helper(name)
                 a = as_double(result)
                 b = as_double(value)
                 result = CValue(DOUBLE, f"{helper}({a.text}, {b.text})")
@@ -193,6 +200,8 @@ def _integer(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue
     value = values[0]
     if value.known:
         return scalar(int(value.constant), INT, value.fixed)
+    if value.type == WORD:
+        return CValue(INT, f"(long long){value.within(UNARY)}", UNARY)
     if value.type != DOUBLE:
         return writer.converted(node, value, INT)
     return CValue(INT, f"(int){value.within(UNARY)}", UNARY)
@@ -200,6 +209,15 @@ def _integer(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue
 
 def _float(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
     return writer.converted(node, values[0], DOUBLE)
+
+
+def _word(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
+    value = values[0]
+    if value.type not in (INT, WORD):
+        writer.refuse(node, "np.uint64 of anything but an integer")
+    if value.known:
+        return scalar(value.constant, WORD, value.fixed)
+    return CValue(WORD, f"(unsigned long long){value.within(UNARY)}", UNARY)
 
 
 def _below(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
@@ -217,6 +235,8 @@ _OF_PYTHON: dict[Any, _OfPython] = {
     min: lambda writer, node, values: writer.maximum(node, values, "min"),
     len: _length,
     int: _integer,
+    np.int64: _integer,
+    np.uint64: _word,
     float: _float,
     # as the engine compiles them for doubles
     elementary.below: _below,

@@ -7,7 +7,7 @@ import operator
 from itertools import pairwise
 
 from ..straight_line.trace import folded
-from .c_types import BOOL, DOUBLE, INT, CRow, CScalar, CTable, CTuple, unify
+from .c_types import BOOL, DOUBLE, INT, WORD, CRow, CScalar, CTable, CTuple, unify
 from .values import (
     AND,
     EQUAL,
@@ -21,6 +21,7 @@ from .values import (
     binary,
     is_number,
     scalar,
+    word,
 )
 from .writer import Writer
 
@@ -30,7 +31,9 @@ _ARITHMETIC = {
     ast.Mult: ("*", PRODUCT, operator.mul),
     ast.Div: ("/", PRODUCT, operator.truediv),
     ast.Mod: ("%", PRODUCT, operator.mod),
+    ast.FloorDiv: ("/", PRODUCT, operator.floordiv),
 }
+_OF_WORDS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.BitXor: "^", ast.RShift: ">>"}
 _COMPARISONS = {
     ast.Lt: ("<", LESS, operator.lt),
     ast.LtE: ("<=", LESS, operator.le),
@@ -136,8 +139,10 @@ class ExpressionWriter(Writer):
         """a op b of numbers, or the sum of two tuples."""
         if isinstance(op, ast.Add) and _both(CTuple, a, b):
             return self.make_tuple(self.items(a) + self.items(b))
+        if a.type == b.type == WORD and type(op) in _OF_WORDS:
+            return word(_OF_WORDS[type(op)], a, b)
         entry = _ARITHMETIC.get(type(op))
-        if entry is None or not _both(CScalar, a, b):
+        if entry is None or not _both(CScalar, a, b) or WORD in (a.type, b.type):
             self.refuse(node, f"the operator {type(op).__name__} here")
         sign, binds, function = entry
         fixed = a.fixed or b.fixed
@@ -151,9 +156,12 @@ class ExpressionWriter(Writer):
             if found is not None:
                 return found
         whole = not doubles and not isinstance(op, ast.Div)
-        if isinstance(op, ast.Mod):
-            if not whole or not b.known or b.constant <= 0:
-                self.refuse(node, "% but of an integer by a known integer above 0")
+        if isinstance(op, (ast.Mod, ast.FloorDiv)):
+            if not whole:
+                self.refuse(node, "% or // but of integers")
+            if isinstance(op, ast.FloorDiv) or not b.known or b.constant <= 0:
+                helper = self.helper(type(op).__name__)
+                return CValue(INT, f"{helper}({a.text}, {b.text})")
             # Python's rest is never negative
             rest = binary("%", a, b, INT, PRODUCT)
             above = binary("+", rest, b, INT, SUM)

@@ -14,7 +14,19 @@ from .statements import FunctionWriter
 from .values import FUNCTION, Argument, CValue, Instance, number, scalar
 
 _WIDEST = 110
-_HELPERS = {"max": ">", "min": "<"}
+_OF_NONE = "as Python has it: a where one is not a number."
+_OTHER_SIGN = "a % b != 0 && (a % b < 0) != (b < 0)"
+_HELPERS = {
+    "max": ("double", _OF_NONE, "b > a ? b : a"),
+    "min": ("double", _OF_NONE, "b < a ? b : a"),
+    "Mod": (
+        "int",
+        "as Python has it: a % b of the sign of b.",
+        f"{_OTHER_SIGN} ? a % b + b : a % b",
+    ),
+    "FloorDiv": ("int", "as Python has it: a / b, rounded down.", f"a / b - ({_OTHER_SIGN})"),
+}
+"""Type, comment and value of functions of two numbers."""
 
 
 @dataclass(frozen=True)
@@ -104,12 +116,12 @@ class TranslationUnit:
         return name
 
     def helper(self, name: str) -> str:
-        """C name of max or min: of NaN as Python has it, and Numba."""
-        full = f"{self.prefix}_{name}"
+        """C name of max or min, of NaN as Python has it, and Numba, or of Mod or FloorDiv."""
+        full = f"{self.prefix}_{name.lower()}"
+        kind, what, value = _HELPERS[name]
         self._helpers[full] = (
-            f"/* {name}(a, b) as Python has it: a where one is not a number. */\n"
-            f"static inline double {full}(double a, double b)\n{{\n"
-            f"    return b {_HELPERS[name]} a ? b : a;\n}}"
+            f"/* {name.lower()}(a, b) {what} */\n"
+            f"static inline {kind} {full}({kind} a, {kind} b)\n{{\n    return {value};\n}}"
         )
         return full
 

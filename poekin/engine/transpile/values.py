@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from .c_types import DOUBLE, INT, CScalar, CTuple, CType, Structures
+from .c_types import DOUBLE, INT, WORD, CScalar, CTuple, CType, Structures
 
 UNKNOWN: Any = object()
 FUNCTION = CScalar("function", "f")
@@ -82,6 +82,8 @@ def initial(text: str, structure: str) -> str:
 def scalar(value: Any, kind: CType, fixed: bool = False) -> CValue:
     """A known number or truth value."""
     text = number(value) if kind == DOUBLE else str(int(value))
+    if kind == WORD:
+        text += "ULL"
     negative = text.startswith(("-", "("))
     return CValue(kind, text, UNARY if negative else PRIMARY, value, fixed)
 
@@ -116,6 +118,11 @@ def member(value: CValue, k: int) -> CValue:
     if value.known and isinstance(item, CScalar):
         return scalar(constant, item, value.fixed)
     return CValue(item, f"{value.within(PRIMARY)}.{field}", PRIMARY, constant, value.fixed)
+
+
+def word(sign: str, a: CValue, b: CValue) -> CValue:
+    """a sign b of words: none of C's strengths of ^ and >> is relied on."""
+    return CValue(WORD, f"{a.within(UNARY)} {sign} {b.within(UNARY)}", 0)
 
 
 def is_number(kind: CType) -> bool:

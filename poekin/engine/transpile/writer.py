@@ -79,6 +79,10 @@ class Writer:
         """A constant of a module that is no number; see `translation_unit`."""
         raise NotImplementedError
 
+    def helper(self, name: str) -> str:
+        """C name of a function of two numbers that C has not; see `translation_unit`."""
+        raise NotImplementedError
+
     def refuse(self, node: ast.AST, construct: str) -> NoReturn:
         """Raise InputError with file and line."""
         self.source.refuse(node, construct)
@@ -188,16 +192,17 @@ class Writer:
 
     def constant(self, node: ast.AST, value: Any, name: str, fixed: bool = False) -> CValue:
         """A value that Python knows."""
-        if isinstance(value, np.generic):
-            value = value.item()
-        kind = type_of_constant(value)
+        plain = value
+        if isinstance(value, np.generic) and value.dtype != np.uint64:
+            plain = value.item()
+        kind = type_of_constant(plain)
         if kind is None:
             self.refuse(node, f"the value {name} of type {type(value).__name__}")
         if isinstance(kind, CScalar):
-            return scalar(value, kind, fixed)
+            return scalar(plain, kind, fixed)
         if name and not fixed:
-            return self.global_constant(name, value, kind)
-        items = [self.constant(node, item, "", fixed) for item in value]
+            return self.global_constant(name, plain, kind)
+        items = [self.constant(node, item, "", fixed) for item in plain]
         return self.make_tuple(items)
 
     def python_value(self, node: ast.expr) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -140,7 +141,9 @@ def c(
 
 
 class CFunction:
-    """The C of one task: its angles, its statements, and both together; `linkage` stands before them."""
+    """The C of one task: its angles, its statements, and both together; `linkage` stands before them,
+    and `sines` are statements from x to s[j] and c[j], of math.h where none are given.
+    """
 
     def __init__(
         self,
@@ -150,11 +153,14 @@ class CFunction:
         task: EmittedFunction,
         dof: int,
         linkage: str = "",
+        sines: Sequence[str] = (),
     ) -> None:
         self.task = task
         self.real = real
         self.literal = literal
         self.dof = dof
+        suffix = {"float": "f"}.get(real, "")
+        self.sines = sines or (f"s[j] = sin{suffix}(x);", f"c[j] = cos{suffix}(x);")
         self.name = f"{word}_{task.name}"
         self.count = len(task.program.angles)
         parameters = "".join(f", {real} *{result}" for result in task.results)
@@ -209,15 +215,13 @@ class CFunction:
         results = self.task.arguments
         if not self.count:
             return [f"    {self.name}_sincos(q, q, q{results});"]
-        suffix = {"float": "f"}.get(self.real, "")
         return [
             f"    {self.real} s[{self.count}], c[{self.count}];",
             "    int j;",
             f"    {self.name}_angles(q, s);",
             f"    for (j = 0; j < {self.count}; j++) {{",
             f"        const {self.real} x = s[j];",
-            f"        s[j] = sin{suffix}(x);",
-            f"        c[j] = cos{suffix}(x);",
+            *(f"        {line}" for line in self.sines),
             "    }",
             f"    {self.name}_sincos(s, c, q{results});",
         ]

@@ -61,13 +61,14 @@ def made_by(origin: str) -> list[str]:
 @dataclass(frozen=True)
 class EmittedFunction:
     """One function to write: its name, its program, how many poses it writes, and whether a
-    Jacobian.
+    Jacobian, or what else stands in its place, of so many rows.
     """
 
     name: str
     poses: int
     jacobian: bool
     program: Program
+    rows: int = 6
 
     @property
     def cost(self) -> str:
@@ -87,6 +88,11 @@ class EmittedFunction:
     def sizes(self) -> dict[str, int]:
         """Numbers of the arrays T and J."""
         return {"T": 16 * self.poses, "J": len(self.program.outputs) - 12 * self.poses}
+
+    @property
+    def columns(self) -> int:
+        """Numbers of a row of J."""
+        return self.sizes["J"] // self.rows
 
     @property
     def arguments(self) -> str:

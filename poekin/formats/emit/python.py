@@ -80,13 +80,14 @@ def python(
         "",
     ]
     return "\n".join(
-        [*(line.rstrip() for line in head), *(_functions(task, arm.dof) for task in functions)]
+        [*(line.rstrip() for line in head), *(array_functions(task, arm.dof) for task in functions)]
     )
 
 
-def _functions(task: EmittedFunction, dof: int) -> str:
+def array_functions(task: EmittedFunction, dof: int) -> str:
+    """The functions of one task, of arrays q of the module xp."""
     program = statements(task.program, double)
-    shapes = {"T": "T (..., 4, 4)", "J": f"J (..., 6, {dof})"}
+    shapes = {"T": "T (..., 4, 4)", "J": f"J (..., {task.rows}, {task.columns})"}
     what = ", ".join(shapes[result] for result in task.results)
     angles = len(program.angles)
     return "\n".join(
@@ -100,7 +101,7 @@ def _functions(task: EmittedFunction, dof: int) -> str:
             "",
             f"def {task.name}_sincos(sines, cosines, q, xp):",
             f'    """{what} from sines and cosines (..., {angles}) of the angles, and from q (..., {dof})."""',
-            *_statements(program, task, dof),
+            *_statements(program, task),
             f"    return {', '.join(task.results)}",
             "",
             "",
@@ -131,7 +132,7 @@ def _angles(program: Statements) -> list[str]:
     ]
 
 
-def _statements(program: Statements, task: EmittedFunction, dof: int) -> list[str]:
+def _statements(program: Statements, task: EmittedFunction) -> list[str]:
     arrays = {"s": "sines", "c": "cosines", "q": "q"}
     T, J = by_outputs(program.outputs, task.poses)
     lines = [f"    {name} = {arrays[array]}[..., {k}]" for name, array, k in program.reads]
@@ -147,10 +148,12 @@ def _statements(program: Statements, task: EmittedFunction, dof: int) -> list[st
         lines.append("    T = xp.reshape(T, tuple(q.shape[:-1]) + (4, 4))")
     if task.jacobian:
         entries = "q"
-        if dof:
+        if task.columns:
             entries = "J"
             lines += _stack("J =", [names.get(x, str(x)) for x in J])
-        lines.append(f"    J = xp.reshape({entries}, tuple(q.shape[:-1]) + (6, {dof}))")
+        lines.append(
+            f"    J = xp.reshape({entries}, tuple(q.shape[:-1]) + ({task.rows}, {task.columns}))"
+        )
     return lines
 
 

@@ -87,10 +87,8 @@ def _read(at: int) -> Read:
 
 
 def _angle(angle: Angle, literal: WriteNumber) -> str:
-    """An angle's sum, in the order in which `engine.kernels.arm_kernels` takes it."""
+    """An angle's sum, in the order in which `engine.straight_line.machine_code` takes it."""
     text = ""
-    if angle.offset:
-        text += f" + {literal(angle.offset)}"
     if angle.base is not None:
         text += f" + x{angle.base}"
     for k, factor in angle.terms:
@@ -99,6 +97,8 @@ def _angle(angle: Angle, literal: WriteNumber) -> str:
             term = f"{literal(abs(factor))} * {term}"
         sign = "+" if factor > 0 else "-"
         text += f" {sign} {term}"
+    if angle.offset:
+        text += f" + {literal(angle.offset)}"
     # The first factor of an angle without a base is positive (`Angles` of `program`).
     return text.removeprefix(" + ")
 

@@ -33,13 +33,9 @@ class PoseManipulability(Measure):
 
     def program(self, chain: Chain) -> Program:
         """Pose and determinant."""
-        from ...engine.straight_line.specialise import manipulability_program, with_frame_at
+        from ...engine.straight_line.specialise import measured_program
 
-        fast = chain.compile()
-        if fast.dof < _FULL:
-            return manipulability_program(fast.structure, "hybrid")
-        joint, along, _ = fast.cheapest
-        return manipulability_program(with_frame_at(fast.structure, joint, along), joint)
+        return measured_program(chain.compile().structure)
 
     def outputs(self, chain: Chain) -> int:
         """The determinant."""

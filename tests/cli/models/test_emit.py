@@ -159,7 +159,10 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--lang", "rust"), "--lang: 'c', 'python' or 'javascript' expected, got 'rust'"),
+        (
+            ("--lang", "rust"),
+            "--lang: 'c', 'python', 'javascript', 'cuda' or 'jax' expected, got 'rust'",
+        ),
         (("--lang", "python", "--float"), "--float: expected together with --lang c only"),
         (
             ("--lang", "c", "--all-links"),

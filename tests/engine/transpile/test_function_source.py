@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from poekin.engine.transpile.c_types import CRow
@@ -108,7 +109,29 @@ def a_lambda(a, out):
     out[0] = (lambda x: x)(a[0])
 
 
+def a_word_and_a_number(a, out):
+    out[0] = np.uint64(3) + a[0]
+
+
+def a_word_of_a_double(a, out):
+    out[0] = np.int64(np.uint64(a[0]))
+
+
+def a_word_or_a_number(a, out):
+    x = np.uint64(3)
+    x = 2
+    out[0] = x
+
+
+def a_rest_of_doubles(a, out):
+    out[0] = a[0] % 2.0
+
+
 REFUSED = {
+    a_word_and_a_number: ("+ a[0]", "the operator Add here"),
+    a_word_of_a_double: ("np.int64(", "np.uint64 of anything but an integer"),
+    a_word_or_a_number: ("x = 2", "the name x for values of two types"),
+    a_rest_of_doubles: ("% 2.0", "% or // but of integers"),
     a_list: ("[a[0]][0]", "an expression List"),
     a_power: ("**", "the operator Pow here"),
     a_text: ("WORD", "the value WORD of type str"),

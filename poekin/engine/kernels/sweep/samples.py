@@ -20,21 +20,25 @@ def write_samples(samples, bounds, first, q):
     """Coordinates q (N, m) of samples `first`, first + 1 and so on."""
     if samples[KIND] == GRID:
         for k in range(q.shape[0]):
-            _write_grid(first + k, samples[COUNTS:], bounds, q[k])
+            write_grid(first + k, samples[COUNTS:], bounds, q[k])
     elif samples[KIND] == SOBOL:
         _write_sobol(samples[1:], first, bounds, q)
     else:
-        _write_random(np.uint64(samples[SEED]), first, bounds, q)
+        write_random(np.uint64(samples[SEED]), first, bounds, q)
 
 
-def _write_random(seed, first, bounds, q):
+def write_random(seed, first, bounds, q):
     """Evenly between the bounds."""
     count, m = q.shape
-    start = _mixed(seed)
+    start = mixed(seed)
     for k in range(count):
         for i in range(m):
-            bits = _mixed(start + np.uint64((first + k) * m + i + 1) * _STEP)
-            q[k, i] = bounds[0, i] + bounds[1, i] * _unit(bits)
+            q[k, i] = drawn(start, (first + k) * m + i + 1, bounds[0, i], bounds[1, i])
+
+
+def drawn(start, number, lower, width):
+    """Random number `number`, 1, 2 and so on, between lower and lower + width."""
+    return lower + width * _unit(mixed(start + np.uint64(number) * _STEP))
 
 
 def _write_sobol(numbers, first, bounds, q):
@@ -69,16 +73,21 @@ def _unit(bits):
     return np.int64(bits >> np.uint64(11)) * _UNIT
 
 
-def _mixed(x):
+def mixed(x):
     """64 bits of which each depends on each of x."""
     x = (x ^ (x >> np.uint64(30))) * _FIRST
     x = (x ^ (x >> np.uint64(27))) * _SECOND
     return x ^ (x >> np.uint64(31))
 
 
-def _write_grid(number, counts, bounds, q):
+def write_grid(number, counts, bounds, q):
     """In the middles of `counts` (m,) equal parts; the last coordinate changes first."""
     for i in range(len(q) - 1, -1, -1):
-        part = number % counts[i]
+        q[i] = divided(number, counts[i], bounds[0, i], bounds[1, i])
         number = number // counts[i]
-        q[i] = bounds[0, i] + bounds[1, i] * ((part + 0.5) / counts[i])
+
+
+def divided(number, count, lower, width):
+    """Middle of part number % count, of `count` equal ones between lower and lower + width."""
+    part = number % count
+    return lower + width * ((part + 0.5) / count)

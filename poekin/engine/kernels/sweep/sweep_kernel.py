@@ -28,10 +28,10 @@ from .measures import (
     measure_coordinates,
     measure_lanes,
 )
+from .root import root
 from .samples import write_samples
-from .tiles import tile
+from .tiles import OUTSIDE, cell_of
 
-OUTSIDE = -1
 BINS, TOP = -1, -2
 HALF = 32
 FINE = 2.0**40
@@ -39,26 +39,12 @@ FINE = 2.0**40
 _LARGEST = 2.0**62
 
 
-def _cell(cells, place, p, axis):
-    """The cell of a point and a direction, OUTSIDE where there is none."""
-    x = math.floor((p[0] - place[0]) * place[3])
-    y = math.floor((p[1] - place[1]) * place[3])
-    z = math.floor((p[2] - place[2]) * place[3])
-    if not (0 <= x < cells[1] and 0 <= y < cells[2] and 0 <= z < cells[3]):
-        return OUTSIDE
-    cube = (int(x) * cells[2] + int(y)) * cells[3] + int(z)
-    side = cells[0]
-    if side == 0:
-        return cube
-    return cube * (12 * side * side) + tile(axis[0], axis[1], axis[2], side)
-
-
 def _write_cells(cells, place, R_p, found, first):
     """Cells of four poses, R_p (12, LANES) their numbers, from found[first] on."""
     for lane in range(LANES):
         p = (R_p[9, lane], R_p[10, lane], R_p[11, lane])
         axis = (R_p[2, lane], R_p[5, lane], R_p[8, lane])
-        found[first + lane] = _cell(cells, place, p, axis)
+        found[first + lane] = cell_of(cells, place, p, axis)
 
 
 @kernel("int int int i1 r2 i1 r1 i1 r1 n1 w1 n1 n1", returns="int", portable=True)
@@ -117,7 +103,7 @@ def swept(
                 measure_lanes(measure, numbers, outputs, W, four, values, k)
         if is_root:
             for k in range(BLOCK):
-                values[k] = math.sqrt(values[k]) if values[k] > 0.0 else 0.0
+                values[k] = root(values[k])
         elif kind in OF_COORDINATES:
             measure_coordinates(measure, numbers, q, values)
         if not is_spatial:
@@ -200,4 +186,4 @@ def located(T, cells, place, found):
     for k in range(len(T)):
         p = (T[k, 0, 3], T[k, 1, 3], T[k, 2, 3])
         axis = (T[k, 0, 2], T[k, 1, 2], T[k, 2, 2])
-        found[k] = _cell(cells, place, p, axis)
+        found[k] = cell_of(cells, place, p, axis)

@@ -1,5 +1,5 @@
 """Tiles of the sphere of equal area, 12 n^2, n by n on each of twelve faces, and the tile of a
-direction.
+direction; cells, of which each is a cube of space and a tile.
 
 Source: Górski et al. 2005 (HEALPix), Section 4, with the tiles of a face numbered row by row.
 """
@@ -8,7 +8,22 @@ import math
 
 from ...straight_line.arctangent import atan2
 
+OUTSIDE = -1
 _EQUATOR = 2.0 / 3.0
+
+
+def cell_of(cells, place, p, axis):
+    """The cell of a point and a direction, OUTSIDE where there is none."""
+    x = math.floor((p[0] - place[0]) * place[3])
+    y = math.floor((p[1] - place[1]) * place[3])
+    z = math.floor((p[2] - place[2]) * place[3])
+    if not (0 <= x < cells[1] and 0 <= y < cells[2] and 0 <= z < cells[3]):
+        return OUTSIDE
+    cube = (int(x) * cells[2] + int(y)) * cells[3] + int(z)
+    side = cells[0]
+    if side == 0:
+        return cube
+    return cube * (12 * side * side) + tile(axis[0], axis[1], axis[2], side)
 
 
 def tile(x, y, z, n):

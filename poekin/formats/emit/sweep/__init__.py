@@ -1,0 +1,1 @@
+"""Sweeps of an arm as source text for accelerators."""

@@ -1,0 +1,93 @@
+"""Emitted text for JAX, with NumPy for jax.numpy: what `pk.sweep.run` counts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from poekin.errors import InputError
+from poekin.formats import emit
+from poekin.sweep import Cells
+
+from ..emitted import HOSTILE, arm, bound, module, with_name
+from .jax_by_numpy import Updated, by_numpy
+from .sweep_cases import CASES, CELLS, arguments, case, check
+
+ROUNDOFF = {"float64": 2.0**-53, "float32": 2.0**-24}
+
+
+@pytest.mark.parametrize("key", CASES)
+def test_by_numpy_the_map_is_that_of_the_sweep(key):
+    sweep = case(key)
+    functions = by_numpy(emit.jax(sweep.chain, "hybrid", measure=sweep.measure))
+    room = sweep.cells.count + 1
+    state = [np.zeros(room, np.int64).view(Updated)]
+    if sweep.is_measured:
+        state += [np.full(room, -np.inf).view(Updated)]
+        state += [np.full(room, 2**63 - 1, np.int64).view(Updated)]
+    count = sweep.samples.count
+    for first, last in ((0, count // 3), (count // 3, count)):
+        found = functions["sweep"](first, last - first, *arguments(sweep), *state)
+        state = list(found) if isinstance(found, tuple) else [found]
+    check(sweep, *state)
+
+
+@pytest.mark.parametrize("key", CASES)
+@pytest.mark.parametrize("precision", ROUNDOFF)
+def test_by_numpy_configurations_are_those_of_the_sweep(key, precision):
+    sweep = case(key)
+    functions = by_numpy(emit.jax(sweep.chain, 0, precision=precision))
+    numbers = np.arange(sweep.samples.count)
+    samples, bounds, _, _ = arguments(sweep)
+    q = functions["configurations"](numbers, samples, bounds)
+    expected = sweep.samples.configurations(numbers)
+    assert q.dtype == precision
+    np.testing.assert_array_equal(q, expected.astype(precision))
+    T = functions["fk"](q, np)
+    assert T.dtype == precision
+    allowed = bound(sweep.chain, q, ROUNDOFF[precision])
+    np.testing.assert_allclose(T, sweep.chain.fk(q), rtol=0, atol=allowed)
+
+
+@pytest.mark.parametrize("side", [0, 1, 3])
+def test_by_numpy_cells_are_those_of_the_poses(side):
+    chain = arm("panda")
+    cells = Cells(CELLS.corner, 0.2, (5, 10, 10), side)
+    T = chain.fk(chain.random(3, 4000))
+    functions = by_numpy(emit.jax(chain, "body"))
+    found = functions["cells_of"](T, tuple(cells.numbers().tolist()), cells.place())
+    np.testing.assert_array_equal(found, cells.find(T))
+    assert (found == -1).any()
+
+
+def test_by_numpy_the_corner_has_the_precision_of_the_poses():
+    functions = by_numpy(emit.jax(arm("panda"), "body", precision="float32"))
+    T = np.eye(4, dtype=np.float32)
+    T[:3, 3] = 0.7  # which float32 rounds down
+    cells = Cells((0.7, 0.7, 0.7), 0.1, (1, 1, 1))
+    assert functions["cells_of"](T, tuple(cells.numbers().tolist()), cells.place()) == 0
+
+
+def test_samples_of_another_kind_are_refused():
+    functions = by_numpy(emit.jax(arm("panda"), "body"))
+    with pytest.raises(ValueError, match=r"^samples: expected those of pk\.sweep\.Random or Grid$"):
+        functions["configurations"](np.arange(3), (2, 0), np.zeros((2, 7)))
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_name_stays_in_its_docstring(name):
+    text = emit.jax(with_name(name), "hybrid", origin=name)
+    text.encode("ascii")
+    plain = emit.jax(with_name("a"), "hybrid")
+    names = set(by_numpy(text))
+    assert names == set(by_numpy(plain))
+    assert vars(module(emit.python(with_name("a"), "hybrid"))).keys() <= names
+
+
+def test_what_cannot_be_emitted_is_refused():
+    with pytest.raises(InputError, match=r"^precision: expected 'float64' or 'float32', got 16$"):
+        emit.jax(arm("panda"), "body", precision=16)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"^measure: expected 'reach' or 'manipulability', got"):
+        emit.jax(arm("panda"), "body", measure="")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"^emit: expected an arm with a coordinate, .* has none$"):
+        emit.jax(arm("no joint"), "body")
