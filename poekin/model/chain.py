@@ -199,9 +199,9 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates, Cha
         ShapeError
             If q, at or out has another shape.
         UnknownName
-            If a name is no coordinate, or a string no frame.
+            If a name is no coordinate.
         InputError
-            If the frame is left out, or values cannot be used.
+            If the frame is none or left out, or values cannot be used.
 
         Notes
         -----
@@ -254,9 +254,9 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates, Cha
         ShapeError
             If q, at or an array of out has another shape.
         UnknownName
-            If a name is no coordinate, or a string no frame.
+            If a name is no coordinate.
         InputError
-            If the frame is left out, or values cannot be used.
+            If the frame is none or left out, or values cannot be used.
 
         Notes
         -----

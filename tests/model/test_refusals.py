@@ -44,7 +44,7 @@ OF_CALLS = {
                      "q, dq do not broadcast: shapes (3, 2), (4, 2)"),
     "q0": (lambda: ARM.rezeroed([0, NAN]), InputError, "q0: expected one finite configuration (2,), got [0.0, nan]"),
     "q0s": (lambda: ARM.rezeroed([[0, 1]]), InputError, "q0: expected one finite configuration (2,), got [[0.0, 1.0]]"),
-    "a frame's name": (lambda: ARM.jacobian(Q, "tool"), UnknownName, f"{FRAMES}, got 'tool'"),
+    "a frame's name": (lambda: ARM.jacobian(Q, "tool"), InputError, f"{FRAMES}, got 'tool'"),
     "a joint's index": (lambda: ARM.jacobian(Q, 2), InputError, f"{FRAMES}, 0 to 1, got 2"),
     "no joint's index": (lambda: ALONE.jacobian([], 0), InputError,
                          "frame: expected 'space', 'body' or 'hybrid' (the chain has no joint), got 0"),

@@ -147,8 +147,6 @@ def count(
     ------
     InputError
         If `chain` is no Chain or too short, or method, frame, counting and pose do not go together.
-    UnknownName
-        If "specialised" has no such frame.
 
     See Also
     --------

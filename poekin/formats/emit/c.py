@@ -99,8 +99,6 @@ def c(
     InputError
         If `chain` is no Chain, `real` or the frame is unknown, `origin` is no text, or the arm needs a number that the
         type cannot hold.
-    UnknownName
-        If the frame is a name that there is not.
 
     Notes
     -----

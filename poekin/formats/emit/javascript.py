@@ -56,8 +56,6 @@ def javascript(
     InputError
         If `chain` is no Chain and no Robot, the frame is no frame, or is given with a Robot, or
         `origin` is no text.
-    UnknownName
-        If the frame is a name that there is not.
 
     Notes
     -----

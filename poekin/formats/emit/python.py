@@ -47,8 +47,6 @@ def python(
     ------
     InputError
         If `chain` is no Chain, the frame is no frame, or `origin` no text.
-    UnknownName
-        If the frame is a name that there is not.
 
     Notes
     -----

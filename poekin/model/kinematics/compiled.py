@@ -168,9 +168,9 @@ class CompiledChain(ChainPrograms[AnyChain]):
         ShapeError
             If an array has another shape.
         UnknownName
-            If a name is no coordinate, or a string no frame.
+            If a name is no coordinate.
         InputError
-            If the frame is left out, or values cannot be used.
+            If the frame is none or left out, or values cannot be used.
 
         Notes
         -----
@@ -220,9 +220,9 @@ class CompiledChain(ChainPrograms[AnyChain]):
         ShapeError
             If an array has another shape.
         UnknownName
-            If a name is no coordinate, or a string no frame.
+            If a name is no coordinate.
         InputError
-            If the frame is left out, or values cannot be used.
+            If the frame is none or left out, or values cannot be used.
 
         Notes
         -----

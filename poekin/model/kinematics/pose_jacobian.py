@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from ...checks import REQUIRED, is_whole
 from ...engine.kernels import chain_kernels
-from ...errors import InputError, UnknownName, quote
+from ...errors import InputError, quote
 from ...groups import se3, so3
 from ...groups.arrays import Array, shaped
 from ..chain_data import ChainData
@@ -175,7 +175,7 @@ def frame_code(chain: ChainData, frame: object) -> int:
     if isinstance(frame, str):
         own = _OF_PINOCCHIO.get(frame.upper())
         hint = f" (Pinocchio's {frame.upper()} is {own!r})" if own else ""
-        raise UnknownName(
+        raise InputError(
             f"frame: expected 'space', 'body', 'hybrid' or the index of a joint, got {quote(frame)}{hint}"
         )
     if is_whole(frame, 0) and frame < n:

@@ -86,10 +86,8 @@ class ChainPrograms(Generic[AnyChain]):
 
         Raises
         ------
-        UnknownName
-            If a string is no frame.
         InputError
-            If a number is no joint's.
+            If a string is no frame, or a number no joint's.
         """
         code = None if frame is None else self._frame_code(frame)
         return self._program(code, pose or frame is None)

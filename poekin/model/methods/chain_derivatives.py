@@ -42,9 +42,9 @@ class ChainDerivatives(ChainData):
         ShapeError
             If q or dq has another number of coordinates, or they do not broadcast.
         UnknownName
-            If a name is no coordinate, or a string no frame.
+            If a name is no coordinate.
         InputError
-            If the frame is left out, or values cannot be used.
+            If the frame is none or left out, or values cannot be used.
 
         Notes
         -----

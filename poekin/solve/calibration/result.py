@@ -116,7 +116,8 @@ class CalibrationData(Result):
         True
         """
         q = coordinates(q, self.nominal.q_names)
-        C = uncertainty.pose_covariance(self._estimate, q.reshape(-1, self.nominal.dof))
+        rows = q.reshape(-1, self.nominal.dof)
+        C = uncertainty.pose_covariance(self._estimate, rows)
         return C.reshape(*q.shape[:-1], 6, 6)
 
     def relative_covariance(self, q_a: Any, q_b: Any) -> Array:
@@ -155,7 +156,8 @@ class CalibrationData(Result):
         True
         """
         a, b, shape = self._pairs(q_a, q_b)
-        return uncertainty.relative_covariance(self._estimate, a, b).reshape(*shape, 6, 6)
+        C = uncertainty.relative_covariance(self._estimate, a, b)
+        return C.reshape(*shape, 6, 6)
 
     def distance_deviation(self, q_a: Any, q_b: Any, point: Any = (0.0, 0.0, 0.0)) -> Array:
         """Standard deviation of the distance between two places of a point of the tool.

@@ -120,7 +120,9 @@ class SweepMap(Result):
             )
         if self.best is not None and self.reached.any():
             label = LABELS[self.about["measure"]]
-            ends = label.between(float(np.nanmin(self.best)), float(np.nanmax(self.best)))
+            least = np.nanmin(self.best)
+            most = np.nanmax(self.best)
+            ends = label.between(float(least), float(most))
             lines.append(f"{self.about['keep']} {label.words} of a cell: {ends}")
         lines.append(
             f"a further configuration would fall into an empty cell with a chance of {100 * self.new_cell_chance:.2g} %"

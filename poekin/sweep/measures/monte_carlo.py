@@ -12,6 +12,7 @@ import numpy as np
 from ...checks import KERNEL_INT, whole
 from ...groups import se3, so3
 from ...groups.arrays import Array
+from ...groups.vectors import angular_part, linear_part, rotation_part, translation_part
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...model.kinematics.arm import Arm, chain_of
@@ -134,7 +135,8 @@ def monte_carlo(
     pairs = (draws + 1) // 2
     for first in range(0, pairs, _AT_ONCE):
         some = min(_AT_ONCE, pairs - first)
-        eta = np.tensordot(rng.standard_normal((some, len(sources))), sources, axes=1)
+        factors = rng.standard_normal((some, len(sources)))
+        eta = np.tensordot(factors, sources, axes=1)
         moves = se3.exp(np.concatenate([eta, -eta]))
         for k, row in enumerate(rows):
             errors = _errors(arm, row, moves)
@@ -149,8 +151,8 @@ def monte_carlo(
     return DrawnErrors(
         of_position.reshape(batch),
         of_orientation.reshape(batch),
-        means[:, 3:].reshape(*batch, 3),
-        means[:, :3].reshape(*batch, 3),
+        linear_part(means).reshape(*batch, 3),
+        angular_part(means).reshape(*batch, 3),
         draws,
     )
 
@@ -166,5 +168,6 @@ def _errors(chain: Chain, q: Array, moves: Array) -> Array:
         move = moves[:, i]
         T = T @ move @ turn @ se3.inverse(move)
     T = T @ chain.home @ moves[:, -1]
-    w = so3.log(T[:, :3, :3] @ true[:3, :3].T)
-    return np.concatenate([w, T[:, :3, 3] - true[:3, 3]], axis=1)
+    R = rotation_part(T) @ rotation_part(true).T
+    moved = translation_part(T) - translation_part(true)
+    return np.concatenate([so3.log(R), moved], axis=1)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ...checks import choice
 from ...errors import InputError
 from ...groups.arrays import Array
+from ...groups.vectors import rotation_part, translation_part
 from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, chain_of
 from ...solve.calibration.result import CalibrationData
@@ -191,7 +192,9 @@ class PoseUncertainty(Measure):
 
     def program(self, chain: Chain) -> Program:
         """Pose, and squares of what the sources do."""
-        home = [*chain.home[:3, :3].ravel().tolist(), *chain.home[:3, 3].tolist()]
+        R = rotation_part(chain.home).ravel()
+        p = translation_part(chain.home)
+        home = [*R.tolist(), *p.tolist()]
         return error_program(
             chain.screws.tolist(),
             home,

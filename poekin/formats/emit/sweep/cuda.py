@@ -73,8 +73,6 @@ def cuda(
     InputError
         If `chain` is no Chain or has no coordinate, an option is unknown, `name` or `origin` is no
         text, or the arm needs a number that the precision cannot hold.
-    UnknownName
-        If the frame is a name that there is not.
 
     Notes
     -----

@@ -51,8 +51,6 @@ def jax(
     ------
     InputError
         If `chain` is no Chain or has no coordinate, an option is unknown, or `origin` is no text.
-    UnknownName
-        If the frame is a name that there is not.
 
     Notes
     -----

@@ -101,15 +101,21 @@ def _miss(model: ErrorModel, q: Array, sets: Sequence[Measurement]) -> _Miss | N
         problem = Problem(model, q, sets)
     except InputError:
         return None
-    found = problem.residuals(np.zeros(problem.size))
-    sizes = _sizes(found, model.nominal.reach)
+    found = _nominal_residuals(problem)
+    sizes = _sizes(problem)
     typical = Size(found.median_length, found.median_angle)
     return _Miss(float(np.mean(sizes)), typical)
 
 
-def _sizes(found: Residuals, reach: float) -> Array:
-    """Errors in rad and reaches, together."""
+def _sizes(problem: Problem) -> Array:
+    """Errors of the nominal arm in rad and reaches, together."""
+    found = _nominal_residuals(problem)
+    reach = problem.model.nominal.reach
     return found.length / reach + np.nan_to_num(found.angle)
+
+
+def _nominal_residuals(problem: Problem) -> Residuals:
+    return problem.residuals(np.zeros(problem.size))
 
 
 def _exchanged(model: ErrorModel, q: Array, sets: Sequence[Measurement]) -> Iterator[Other]:
@@ -118,27 +124,28 @@ def _exchanged(model: ErrorModel, q: Array, sets: Sequence[Measurement]) -> Iter
         problem = Problem(model, q, sets)
     except InputError:
         return
-    sizes = _sizes(problem.residuals(np.zeros(problem.size)), model.nominal.reach)
+    sizes = _sizes(problem)
     if len(sets) > 1 or len(sizes) < 3:
         return
     odd = np.flatnonzero(sizes > _BETTER * np.median(sizes))
     odd = odd[np.argsort(-sizes[odd])][:_MOST_ROWS]
-    rows = problem.rows[0].copy()
+    taken = problem.rows[0]
+    rows = taken.copy()
     named = []
     for a in odd:
         here = np.full(len(odd), a)
         one = Problem(
             model,
             q,
-            [sets[0].subset(here).with_rows(problem.rows[0][odd])],
+            [sets[0].subset(here).with_rows(taken[odd])],
             problem.initial_frames,
         )
-        fits = _sizes(one.residuals(np.zeros(one.size)), model.nominal.reach)
+        fits = _sizes(one)
         b = odd[np.argmin(fits)]
         if a != b:
-            rows[a] = problem.rows[0][b]
-            named.append(int(problem.rows[0][a]))
-    if len(set(rows.tolist())) == len(set(problem.rows[0].tolist())) and named:
+            rows[a] = taken[b]
+            named.append(int(taken[a]))
+    if len(np.unique(rows)) == len(np.unique(taken)) and named:
         words = f"the measurements of rows {', '.join(map(str, sorted(named)))} exchanged"
         yield Other(words, q, [sets[0].with_rows(rows)])
 
@@ -146,7 +153,7 @@ def _exchanged(model: ErrorModel, q: Array, sets: Sequence[Measurement]) -> Iter
 def _of_base_and_tool(problem: Problem) -> Cause | None:
     """Another base and tool of a set, where they explain it, and most of what is wrong."""
     reach = problem.model.nominal.reach
-    stand = problem.residuals(np.zeros(problem.size))
+    stand = _nominal_residuals(problem)
     found: Cause | None = None
     least = 1.0 / (_BETTER * _FREE)
     for k, s in enumerate(problem.sets):

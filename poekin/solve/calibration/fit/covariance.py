@@ -34,8 +34,7 @@ def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
     B = problem.scale[:, None] * fit.free
     A = fit.jacobian
     if options.prior is not None:
-        inverse_prior = 1.0 / options.prior
-        of_prior = inverse_prior[:, None] * B
+        of_prior = (1.0 / options.prior)[:, None] * B
         A = np.concatenate([A, of_prior])
     R = qr_r(A) if fit.triangle is None else fit.triangle
     inverse = _inverse(R)

@@ -317,9 +317,7 @@ def misfit(
 
 
 def _valley(objective: _Objective, p: Array) -> _Valley:
-    weighted = []
-    plain = []
-    roots = []
+    found = []
     for k, (errors, jacobian) in enumerate(objective.problem.linearised(p)):
         e = objective.noise.whitened_errors(k, errors)
         width = e.shape[1]
@@ -333,8 +331,5 @@ def _valley(objective: _Objective, p: Array) -> _Valley:
             weight = loss(objective.loss, squares, width).weight
             root = np.repeat(np.sqrt(weight), width)
             rows *= root[:, None]
-        weighted.append(rows)
-        plain.append(D)
-        roots.append(root)
-    parts = (weighted, plain, roots)
-    return _Valley(*map(np.concatenate, parts))
+        found.append(_Valley(rows, D, root))
+    return _Valley(*map(np.concatenate, zip(*found, strict=True)))

@@ -219,8 +219,7 @@ class ErrorModel:
             x = self.values(p, q, B)
             return read_only(moved.fk(x))
 
-        key = _Key.of(p, q, B)
-        return self._last_poses(key, poses)
+        return self._last_poses(_Key.of(p, q, B), poses)
 
     def poses_and_twists(self, p: Array, q: Array, basis: Array | None = None) -> PosesAndTwists:
         """Poses at the readings q (N, m), and how the parameters move them.
@@ -235,8 +234,7 @@ class ErrorModel:
             D = self._twists(p, q, B)
             return PosesAndTwists(T, read_only(D))
 
-        key = _Key.of(p, q, B)
-        return self._last_twists(key, poses_and_twists)
+        return self._last_twists(_Key.of(p, q, B), poses_and_twists)
 
     def _twists(self, p: Array, q: Array, basis: Array) -> Array:
         """Space twists (N, 6, P) per unit of each parameter."""
