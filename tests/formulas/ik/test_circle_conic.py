@@ -253,9 +253,7 @@ def test_less_sharp_points_that_nearly_meet_are_taken_to_that_sharpness(draw, se
     A, B, C, D, E, F = conic = tuple(map(float, draw(np.random.default_rng([seed, 5]))))
     with mpmath.workdps(120):
         assert len(points(conic)) == 4
-        for theta, margin in rows(
-            circle_conic.points((A, B / 2, C, D / 2, E / 2, F), 2.0**-6)
-        ):
+        for theta, margin in rows(circle_conic.points((A, B / 2, C, D / 2, E / 2, F), 2.0**-6)):
             assert margin > 0.0
             # 64 u of the largest of coefficients whose sum is 1 / 2, twice for what is taken
             left = abs(derivatives(conic, theta)[0])

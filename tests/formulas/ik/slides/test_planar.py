@@ -105,7 +105,9 @@ def straight(slides, directions):
 @pytest.mark.parametrize("slides", ORDERS.values(), ids=ORDERS)
 def test_at_rest_every_joint_is_at_0(slides):
     rows = planar.with_outer(slides, *straight(slides, (X + Y, X, X + 2 * Y)), ROOT)
-    rest = [value for i in range(6) for value in ((0, 0) if 1 <= i <= 3 and slides[i - 1] else (1, 0))]
+    rest = [
+        value for i in range(6) for value in ((0, 0) if 1 <= i <= 3 and slides[i - 1] else (1, 0))
+    ]
     away = [np.abs(np.subtract(row[:12], rest)).max() for row in rows]
     assert min(away) <= 1e-15  # whole numbers but for one square root
     assert all(0.0 < row[12] <= 1.0 for row in rows)
