@@ -13,7 +13,7 @@ from scipy.linalg import expm, inv
 
 from poekin.errors import BranchError, InputError, PoseError, ShapeError
 from poekin.groups import objects, rpy, se3, so3
-from poekin.groups.arrays import TOLERANCE, numbers, poses, shaped
+from poekin.groups.arrays import ROUNDOFF, TOLERANCE, first_place, numbers, poses, shaped
 
 W, V = np.array([0.3, -1.2, 0.7]), np.array([1.5, 0.2, -0.7])
 XI = np.r_[W, V]
@@ -141,8 +141,20 @@ def test_only_what_may_have_been_rounded_is_sent_to_nearest():
         so3.log(off)
     with pytest.raises(PoseError, match=r"accepted up to 1e-05$"):
         so3.log(off * 1.002)
-    with pytest.raises(PoseError, match=r"accepted up to 1e-05$"):
-        so3.log(-off)
+    # a reflection that misses R R^T = I by little, and its determinant -1 by more
+    for reflection in (-off, np.diag([-0.999, 1.0, 1.0])):
+        with pytest.raises(PoseError, match=r"accepted up to 1e-05$"):
+            so3.log(reflection)
+
+
+def test_of_a_batch_the_first_that_is_refused_is_named():
+    bad = np.zeros((2, 3), dtype=bool)
+    bad[[0, 1, 1], [2, 0, 2]] = True
+    assert first_place(bad, "R") == "R[0, 2]"
+
+
+def test_the_roundoff_is_half_of_what_parts_1_from_the_next_float():
+    assert 0.5 * np.spacing(1.0) == ROUNDOFF
 
 
 def test_rounding_beside_larger_numbers_is_printed_as_0():

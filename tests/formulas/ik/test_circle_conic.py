@@ -191,6 +191,18 @@ def test_without_a_point_every_margin_is_below_0():
         assert max(found[4], found[9]) < 0.0
 
 
+def test_a_line_that_cuts_the_circle_by_less_than_rounding_tells_no_point():
+    # of 8 such in some thousand near tangents: no point of the circle is on the conic
+    conic = (
+        0.6658473075519447, -0.6473115266993945, -0.3585621626251655,
+        -2.3280048739297996, 0.6738873887054428, 1.664042204358425,
+    )  # fmt: skip
+    with mpmath.workdps(120):
+        assert not points(conic)
+    found = circle_conic.roots(*conic)
+    assert max(found[4], found[9]) < 0.0
+
+
 def test_every_angle_is_a_root_of_the_circle_itself():
     for conic in ((0.0,) * 6, (2.0, 0.0, 2.0, 0.0, 0.0, -2.0)):
         found = circle_conic.roots(*conic)
@@ -232,6 +244,20 @@ def test_points_less_sharp_are_right_to_rounding_of_the_pencil():
             for theta, margin in found:
                 assert margin > 0.0
                 assert abs(derivatives(conic, theta)[0]) <= 100 * UNIT * size
+
+
+@pytest.mark.parametrize(
+    "draw, seed", [(fourfold_point, 74), (fourfold_point, 2665), (lines_that_touch, 1985)]
+)
+def test_less_sharp_points_that_nearly_meet_are_taken_to_that_sharpness(draw, seed):
+    A, B, C, D, E, F = conic = tuple(map(float, draw(np.random.default_rng([seed, 5]))))
+    with mpmath.workdps(120):
+        assert len(points(conic)) == 4
+        for theta, margin in rows(circle_conic.points((A, B / 2, C, D / 2, E / 2, F), 2.0**-6)):
+            assert margin > 0.0
+            # 64 u of the largest of coefficients whose sum is 1 / 2, twice for what is taken
+            left = abs(derivatives(conic, theta)[0])
+            assert left <= 128 * UNIT * sum(map(abs, conic))
 
 
 @pytest.mark.parametrize("draw", (any_coefficients, four_points, lines_that_touch))

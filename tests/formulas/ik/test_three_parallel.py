@@ -31,15 +31,18 @@ ZERO = (0.0, 0.0, 0.0)
 
 def any_arm(rng):
     h = unit_vectors(rng, 6)
-    h[2] = h[1]
-    h[3] = h[1]
+    h[2] = h[1] * rng.choice([-1.0, 1.0])
+    h[3] = h[1] * rng.choice([-1.0, 1.0])
     return h, rng.normal(size=(6, 3))
 
 
 def ur(rng):
     h = np.array([(0, 0, 1), (0, 1, 0), (0, 1, 0), (0, 1, 0), (0, 0, -1), (0, 1, 0)], dtype=float)
     P = np.array([ZERO, (0, 0.1, 0), (-0.43, 0, 0), (-0.39, 0, 0), (0, 0.1, 0), (0, 0, -0.1)])
-    return h, P * rng.uniform(0.5, 1.5, 6)[:, None]
+    P = P * rng.uniform(0.5, 1.5, 6)[:, None]
+    if rng.random() < 0.3:
+        P[4] = -P[1]  # no height of the wrist above the shoulder
+    return h, P
 
 
 def solved(kind, h, P, R, p):

@@ -253,10 +253,40 @@ def test_of_a_continuum_a_root_is_given_with_margin_0(roots):
                 )
 
 
-@pytest.mark.parametrize("second", [(0.6, -0.2, 0.5, 0.1, 0.9), (0.0, 0.0, 0.0, 0.0, 0.1)])
+@pytest.mark.parametrize(
+    "second",
+    [(0.6, -0.2, 0.5, 0.1, 0.9), (-0.6, 0.2, -0.5, -0.1, 0.3), (0.0, 0.0, 0.0, 0.0, 0.1)],
+)
 def test_equations_that_contradict_each_other_have_no_root(second):
-    got = two_circles.roots((0.6, -0.2, 0.5, 0.1, 0.3), second)
-    assert all(row[4] == -1.0 for row in got)
+    first = (0.6, -0.2, 0.5, 0.1, 0.3)
+    for got in (two_circles.roots(first, second), two_circles.roots(second, first)):
+        assert all(row[4] == -1.0 for row in got)
+
+
+def test_one_equation_that_is_out_of_reach_has_no_root():
+    for first in ((0.6, 0.0, 0.8, 0.0, 1.5), (0.8, 0.0, 0.6, 0.0, -1.5)):
+        got = two_circles.roots(first, (0.0,) * 5)
+        assert all(row[4] < -1e-3 for row in got)
+
+
+def test_out_of_reach_an_angle_that_no_equation_holds_is_one():
+    for got in two_circles.roots((0.0, 0.0, 1.0, 0.0, 3.0), (0.0, 0.0, 0.0, 1.0, 0.0)):
+        c, s, x, y, margin = got
+        assert margin < 0.0
+        assert (x, y) == pytest.approx((1.0, 0.0), abs=4 * UNIT)
+        assert math.hypot(c, s) == 1.0
+
+
+def test_just_out_of_reach_the_nearest_angles_are_given():
+    for got in two_circles.roots((1.0, 0.0, 0.0, 0.0, 1.00001), (0.0, 0.0, 1.0, 0.0, 1.0)):
+        assert got == pytest.approx((1.0, 0.0, 1.0, 0.0, -1e-5), abs=2e-5)
+        assert got[4] < 0.0
+
+
+def test_equations_that_both_just_reach_have_one_root():
+    for got in two_circles.roots((1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.0, 1.0)):
+        assert got[4] == 0.0
+        assert got[:4] == pytest.approx((1.0, 0.0, 1.0, 0.0), abs=4 * math.sqrt(2 * UNIT))
 
 
 @pytest.mark.parametrize("place", range(10))

@@ -64,6 +64,7 @@ def test_slides_lose_the_damping_beyond_their_own_size():
     free = np.array([1.0, 1, 1, 0, 1])
     for damping, taken in (
         (25.0, [0, 15.0, 24.0, 0, 0]),
+        (1.5, [0, 0, 0.5, 0, 0]),
         (1.0, [0] * 5),
         (0.5, [0] * 5),
         (5.0, [0, 0, 4.0, 0, 0]),
@@ -71,8 +72,8 @@ def test_slides_lose_the_damping_beyond_their_own_size():
         H = np.full((5, 5), 50.0)
         damped_step.ease_slides(J, WEIGHTS, damping, free, 5, H)
         assert np.full((5, 5), 50.0) - H == pytest.approx(np.diag(taken), abs=1e-12)
-    for row in range(3):
-        J[:3, 1] = 1e-9 * np.eye(3)[row]
+    for turns in 1e-9 * np.vstack([np.eye(3), -np.eye(3)]):
+        J[:3, 1] = turns
         H = np.zeros((5, 5))
         damped_step.ease_slides(J, WEIGHTS, 25.0, free, 5, H)
         assert H[1, 1] == 0
@@ -83,3 +84,6 @@ def test_the_diagonal_gains_some_rounding_of_the_largest_that_is_free():
     H[1, 0] = 3.0
     damped_step.keep_regular(np.array([1.0, 0, 1]), 3, H)
     assert H.tolist() == [[2 + 2e-14, 0, 0], [3, 8 + 2e-14, 0], [0, 0, 2e-14]]
+    H = np.array([[0.25, 0.0], [0.0, 0.0]])
+    damped_step.keep_regular(np.ones(2), 2, H)
+    assert H[1, 1] == pytest.approx(0.25e-14)

@@ -73,7 +73,7 @@ def test_the_error_of_a_direction_is_that_of_the_smallest_turn(axis, turn):
 
 @pytest.mark.parametrize("turned", [0.0, 0.7, 2.0])
 def test_towards_the_opposite_direction_half_a_turn_across_x_or_y_is_taken(turned):
-    R = rotation([0, 0, turned])
+    R = rotation([0, 0.4 * turned, turned])
     opposite = -R  # no rotation, but the opposite direction to the last bit
     for axis in np.eye(3):
         a, error = pose_error.direction_error(flat(R), flat(opposite), axis)

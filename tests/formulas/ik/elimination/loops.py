@@ -1,5 +1,7 @@
 """Six revolute joints drawn by a seed, and the equations of their loop, for the tests beside this file."""
 
+import math
+
 import numpy as np
 
 from poekin.formulas.ik.elimination import line_equations
@@ -33,16 +35,19 @@ def tuples(a):
 
 def equations(h, P, p, d):
     """The six equations (6, 3, 3, 3) by their coefficients, and as they are written."""
-    near = [0.0] * line_equations.NEAR_SIDE
-    far = [0.0] * line_equations.FAR_SIDE
-    sigma = [0.0] * (6 * line_equations.ROOM)
+    near = [math.nan] * line_equations.NEAR_SIDE
+    far = [math.nan] * line_equations.FAR_SIDE
+    sigma = [math.nan] * (line_equations.KEPT * line_equations.ROOM)
     h = tuples(h)
     P = tuples(P)
     line_equations.far_side(h, P, far, near)
     line_equations.near_side(h[0], P[0], tuple(map(float, p)), tuple(map(float, d)), near)
     line_equations.combine(near, far, line_equations.ROOM, sigma)
+    for written in (near, far, sigma):
+        assert not any(map(math.isnan, written))
     rows = np.array(sigma).reshape(6, line_equations.ROOM)
-    return rows[:, :27].reshape(6, 3, 3, 3), sigma
+    assert (rows[:, line_equations.PLACES :] == 0.0).all()
+    return rows[:, : line_equations.PLACES].reshape(6, 3, 3, 3), sigma
 
 
 def halves(x):

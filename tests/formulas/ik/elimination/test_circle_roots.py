@@ -1,5 +1,6 @@
 """Real roots of trigonometric polynomials: all of them, against products of known factors."""
 
+import math
 from math import pi
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from poekin.formulas.ik.elimination import circle_roots
+from poekin.formulas.ik.elimination import circle_roots, line_equations
 
 ROOM = circle_roots.ROOM
 K = np.arange(1, 9)
@@ -17,9 +18,10 @@ def collected(f, noise, is_whole=True):
     """Angles and slopes (n, 2) of all roots, or of those not on the opposite side."""
     f = [*map(float, f)]
     b = [0.0] * (circle_roots.LENGTH * circle_roots.ARCS)
-    found = [0.0] * (circle_roots.FIELDS * ROOM)
+    found = [math.nan] * (circle_roots.FIELDS * ROOM)
     circle_roots.on_arcs(circle_roots.POLAR_FORMS, circle_roots.CENTRES, f, b, circle_roots.ARCS)
     count = circle_roots.brackets(b, noise, [0.0] * circle_roots.SCRATCH, found, is_whole)
+    assert np.isfinite(np.reshape(found, (-1, ROOM))[:, :count]).all()
     return np.array([polished(f, found, k) for k in range(count)]).reshape(-1, 2)
 
 
@@ -137,6 +139,7 @@ def test_values_at_the_samples_tell_the_coefficients_and_what_is_beyond_them():
     assert noise <= 20 * 17 * 2.3e-16
     assert np.abs(back[:17] - f).max() <= 20 * 17 * 2.3e-16
     assert size == np.abs(back[:17]).max()
+    assert circle_roots.size_and_noise([0.1 * x for x in back])[0] == 0.1 * size
     beyond = list(values + 0.1 * np.cos(9 * x))
     circle_roots.fourier(circle_roots.WAVES, beyond, back, circle_roots.COEFFICIENTS)
     assert circle_roots.size_and_noise(back)[1] >= 0.09
@@ -154,3 +157,13 @@ def test_coefficients_on_an_arc_begin_and_end_with_the_values_at_its_ends(arc):
         expected, _ = circle_roots.value_and_slope(f, np.cos(x), np.sin(x))
         # some seventeen terms of size 1
         assert abs(b[width * j + arc] - expected) <= 100 * 2.3e-16 * 17
+
+
+def test_halves_are_points_of_half_of_each_sample_s_angle():
+    x = pi * np.arange(circle_roots.SAMPLES) / circle_roots.SAMPLES
+    np.testing.assert_allclose(circle_roots.HALVES, [*np.cos(x), *np.sin(x)], rtol=0, atol=1e-15)
+
+
+def test_rows_that_are_done_four_numbers_at_once_have_fours_of_them():
+    for width in (circle_roots.COEFFICIENTS, circle_roots.ARCS, ROOM, line_equations.ROOM):
+        assert width % 4 == 0

@@ -37,3 +37,32 @@ def test_three_angles_tell_the_other_three(seed):
     # at other angles the line is elsewhere
     turned = (*points[:4], *(np.cos(x[4] + 0.1), np.sin(x[4] + 0.1)))
     assert joints.every(*loop, turned)[2] > 1e-6
+
+
+@given(st.lists(st.floats(-1.0, 1.0), min_size=12, max_size=12))
+def test_the_longest_column_and_the_longest_row_of_a_vector_tell_its_angles(v):
+    V = np.reshape(v, (4, 3))
+    columns = [np.linalg.norm(V[:, k]) for k in range(3)]
+    rows = [np.linalg.norm(V[k, [0, 1, 1, 2]]) for k in range(4)]
+    for lengths in (columns, rows):
+        if np.diff(np.sort(lengths)[-2:]) < 1e-9:  # rounding tells which is longer
+            return
+    longest = V[:, np.argmax(columns)], V[np.argmax(rows), [0, 1, 1, 2]]
+    expected = []
+    for C, S, C2, S2 in longest:
+        x = 2 * (np.arctan2(S2, C2) if abs(C) < abs(S2) else np.arctan2(S, C))
+        expected += [np.cos(x), np.sin(x)]
+    assert joints.outer(v) == pytest.approx(expected, abs=1e-14)
+
+
+def test_of_no_length_the_point_is_that_of_the_angle_0():
+    assert joints.unit(0.0, 0.0) == (1.0, 0.0)
+
+
+@pytest.mark.parametrize("length, told", [(0.5, 0.64), (1e-3, 4e-6), (2.0, 0.64)])
+def test_how_well_the_second_angle_is_told_is_of_the_equations_not_of_their_size(length, told):
+    # rows (length, 0) and (0, -1), so that (2 length / (1 + length^2))^2 is told
+    x, y, z, zero = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
+    p = (length, 0.0, 0.0)
+    found = joints.second((x, z), (zero, zero), p, x, p, y)
+    assert found[2] == pytest.approx(told, rel=1e-5)

@@ -1,5 +1,7 @@
 """Rows across columns of numbers: orthonormal and across, whatever the columns' sizes."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -18,7 +20,7 @@ def test_the_rows_are_orthonormal_and_across_all_columns(length, columns, seed):
     B[0] = 1e-9 * rng.normal(size=length)
     B[0, 0] = rng.choice([-1.0, 1.0])
     before = [5.0] * 3
-    flat = [*before, *B.ravel(), *([0.0] * length * (length - columns))]
+    flat = [*before, *B.ravel(), *([math.nan] * length * (length - columns))]
     null_rows.fill(flat, 3, length, columns)
     assert flat[:3] == before
     N = np.array(flat[3 + length * columns :]).reshape(-1, length)

@@ -1,5 +1,7 @@
 """The matrix of the resultant: its vector of products and its determinant."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -19,7 +21,7 @@ def matrix(A):
 
 def factored(A):
     A = list(map(float, np.ravel(A)))
-    M = [0.0] * resultant.STACKED
+    M = [math.nan] * resultant.STACKED
     return resultant.factor(A, M), A, M
 
 
@@ -28,7 +30,7 @@ def at_root(seed):
     h, P, x, E = arm(seed)
     p, d = line(P, E, h)
     coefficients, sigma = equations(h, P, p, d)
-    A = [0.0] * resultant.EQUATIONS
+    A = [math.nan] * resultant.EQUATIONS
     resultant.equations(sigma, tuple(halves(x[2])), A)
     size = max(np.abs(coefficients).max(), (1 + np.linalg.norm(p)) ** 2)
     return A, size, np.array(products(x[3], x[4]))
@@ -43,7 +45,7 @@ def test_the_matrix_takes_the_products_of_the_angles_to_zero(seed):
 @pytest.mark.parametrize("seed", range(20))
 def test_a_singular_matrix_tells_the_products_of_the_angles(seed):
     A, size, expected = at_root(seed)
-    v = [0.0] * 12
+    v = [math.nan] * resultant.SIZE
     _, A_factors, M = factored(A)
     resultant.null_vector(A_factors, M, v)
     v = np.array(v) / np.linalg.norm(v)
@@ -68,7 +70,7 @@ def test_a_block_of_zeros_is_a_determinant_of_zero_and_no_error(columns):
     A = np.random.default_rng(0).normal(size=(6, 9))
     A[:, columns] = 0
     det, A_factors, M = factored(A)
-    v = [0.0] * 12
+    v = [math.nan] * resultant.SIZE
     resultant.null_vector(A_factors, M, v)
     assert np.isfinite(v).all()
     singular = columns != slice(3, 6)
@@ -80,3 +82,13 @@ def test_rows_are_exchanged_where_a_pivot_is_zero():
     A[0, 0] = 0
     A[3:, 3] = 0
     assert factored(A)[0] == pytest.approx(np.linalg.det(matrix(A)), rel=1e-10)
+
+
+def test_what_is_written_fills_its_place():
+    A, _, _ = at_root(0)
+    assert np.isfinite(A).all()
+    v = [math.nan] * resultant.SIZE
+    _, A_factors, M = factored(A)
+    assert np.isfinite(M[-1])
+    resultant.null_vector(A_factors, M, v)
+    assert np.isfinite(v).all()

@@ -84,3 +84,37 @@ def test_every_row_with_a_margin_makes_the_motion_and_one_is_that_it_was_made_of
     every = rows_of(slides, h, n, P, R, p)
     if (np.abs(every[:, 12]) > 1e-2).all():
         assert min(away) <= 1e-7
+
+
+ROOT = (1.0, 0.0, 1.0, 0.0, 1.0)
+X, Y, Z = np.eye(3)
+
+
+def straight(slides, directions):
+    """Axes at right angles, a joint that slides along its direction; the motion of all joints at 0."""
+    h = np.array([X, Z, Z, Z, X, Y])
+    for i in range(3):
+        if slides[i]:
+            h[i + 1] = directions[i]
+    P = np.array([Y, 2 * X, X, Y, X, Z])
+    rows = [tuple(map(tuple, a.tolist())) for a in (h, P)]
+    R = tuple(np.eye(3).ravel().tolist())
+    return *rows, tuple(Z), tuple(X), R, tuple(P[1:].sum(0).tolist())
+
+
+@pytest.mark.parametrize("slides", ORDERS.values(), ids=ORDERS)
+def test_at_rest_every_joint_is_at_0(slides):
+    rows = planar.with_outer(slides, *straight(slides, (X + Y, X, X + 2 * Y)), ROOT)
+    rest = [
+        value for i in range(6) for value in ((0, 0) if 1 <= i <= 3 and slides[i - 1] else (1, 0))
+    ]
+    away = [np.abs(np.subtract(row[:12], rest)).max() for row in rows]
+    assert min(away) <= 1e-15  # whole numbers but for one square root
+    assert all(0.0 < row[12] <= 1.0 for row in rows)
+
+
+@pytest.mark.parametrize("slides", list(ORDERS.values())[3:], ids=list(ORDERS)[3:])
+def test_parallel_slides_have_no_margin(slides):
+    for row in planar.with_outer(slides, *straight(slides, (X, X, X)), ROOT):
+        assert row[12] == -1.0
+        assert np.isfinite(row).all()

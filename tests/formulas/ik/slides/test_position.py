@@ -96,3 +96,13 @@ def test_a_place_out_of_reach_has_no_margin_where_an_arm_turns(slides):
     h, P, _ = arm(1, False)
     _, margins = rows_of(slides, h, P, np.array([9.0, 0.0, 0.0]))
     assert (margins < 0).all()
+
+
+@pytest.mark.parametrize("slides", ALL, ids=NAMES)
+def test_at_rest_every_joint_is_at_0_though_steps_cancel_and_numbers_are_0(slides):
+    h = np.array([(0.0, 0.6, 0.8), (0.8, 0.0, 0.6), (0.6, 0.8, 0.0)])
+    P = np.array([(1.0, 0.5, 2.0), (-1.0, -0.5, -2.0), (0.0, 1.0, 2.0)])
+    x, margins = rows_of(slides, h, P, P[2])
+    least = smallest_velocity(slides, h, P, np.zeros(3))
+    assert least > 0.02
+    assert np.abs(x[margins > 0]).max(axis=1).min() <= 4000 * U / least**2

@@ -76,3 +76,21 @@ def test_slides_that_lie_alike_have_one_solution():
     assert t == pytest.approx(0.75, abs=4 * U)
     assert w == pytest.approx(0.25, abs=4 * U)
     assert none[4] == -two_lines.NO_ROW
+
+
+@pytest.mark.parametrize("squares", [(0.5, 0.0), (-0.5, 0.0), (0.0, 0.5), (0.0, -0.5)])
+def test_of_one_square_alone_both_roots_solve_both_equations(squares):
+    K, L = squares
+    # of which t = 1/2 and w = 1/4 is one
+    second = (0.5, K, -1.0, L, 0.25 * K + 0.0625 * L)
+    for t, _, w, _, margin in two_lines.roots((1.0, 0.0, 2.0, 0.0, 1.0), second):
+        assert margin > 0.0
+        size = (1 + abs(t) + abs(w)) ** 2
+        assert abs(t + 2 * w - 1) <= 8 * U * size
+        assert abs(0.5 * t + K * t * t - w + L * w * w - second[4]) <= 16 * U * size
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_slides_that_lie_alike_are_told_whichever_way_they_point(side):
+    one, _ = two_lines.roots((side, 0.0, side, 0.0, 1.0), (side, 0.5, 0.0, -0.5, 1.0))
+    assert (one[0], one[2]) == pytest.approx((0.75 * side, 0.25 * side), abs=4 * U)
