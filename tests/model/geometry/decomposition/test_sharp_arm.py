@@ -33,6 +33,17 @@ def test_the_joints_of_a_pose_are_among_its_branches(name, words):
     assert margins[at, best].min() >= -1e-9
 
 
+def test_arms_are_tried_all_around_where_they_turn_and_within_half_the_reach_where_they_slide():
+    chain = pk.load("stanford").chain()
+    q, T = module._known(chain)
+    slides = np.array([kind == "prismatic" for kind in chain.kinds])
+    assert slides.any()
+    assert np.abs(q[:, slides]).max() <= chain.reach / 2
+    assert np.abs(q[:, ~slides]).max() > chain.reach / 2
+    assert np.abs(q[:, ~slides]).max() <= np.pi
+    np.testing.assert_array_equal(T, chain.fk(q))
+
+
 @pytest.mark.parametrize("by", [1e-9, 1e-6])
 def test_an_arm_that_is_not_exact_has_none(by):
     whole = pk.load("ur5e").chain()
