@@ -45,6 +45,11 @@ def test_axes_that_pass_each_other_do_not_meet_within_less(off):
     assert module.meeting_point(axes, Tolerance(1e-13, off)) is not None
 
 
+def test_axes_that_meet_exactly_do_so_within_nothing():
+    axes = through(np.zeros(3), [0, 0, 1], [1, 0, 0])
+    assert module.meeting_point(axes, Tolerance(0.0, 0.0)) is not None
+
+
 def test_a_slide_neither_meets_nor_is_parallel():
     axes = through(np.zeros(3), [0, 0, 1], [1, 0, 0])
     slide = [axes[0], axes[1]._replace(slides=True)]
