@@ -52,6 +52,33 @@ def test_an_arm_that_is_not_exact_has_none(by):
     assert sharp_arm(pk.Chain.from_space(screws, whole.home)) is None
 
 
+@pytest.mark.parametrize(
+    ("errors", "taken"),
+    [
+        ([1e-8, 1e-9, 1e-7], 1),
+        ([1e-8, 2e-8, 1e-12, 1e-13], 2),
+        ([1e-12, 1e-13], 0),
+        ([np.inf, 2e-6, 5e-7], 2),
+        ([2e-6, np.inf], None),
+    ],
+)
+def test_else_the_sharpest_completion_is_taken_unless_none_finds_the_joints(
+    monkeypatch, errors, taken
+):
+    chain = pk.Chain.from_space(pk.load("ur5").chain().screws[:5], np.eye(4))
+    arms = []
+
+    def error(arm, q, T):
+        arms.append(arm)
+        return errors[len(arms) - 1] if len(arms) <= len(errors) else np.inf
+
+    monkeypatch.setattr(module, "_error", error)
+    found = sharp_arm(chain)
+    assert (found is None) == (taken is None)
+    if found is not None:
+        assert found.arm is arms[taken]
+
+
 def test_the_first_completion_that_is_sharp_is_taken(monkeypatch):
     chain = pk.load("puma560").chain()
     asked = []
