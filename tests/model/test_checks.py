@@ -99,6 +99,11 @@ def test_a_pose_made_exact_is_kept(R, t):
             "P is no pose: its last row is [0.0, 0.0, 0.0, 2.0], expected [0, 0, 0, 1]",
         ),
         (
+            np.diag([1, 1, 1, 0]) + np.outer([0, 0, 0, 1], [1, 1, 1, 2]),
+            PoseError,
+            "P is no pose: its last row is [1.0, 1.0, 1.0, 2.0], expected [0, 0, 0, 1]",
+        ),
+        (
             np.zeros((4, 4)),
             PoseError,
             "P is no pose: its last row is [0.0, 0.0, 0.0, 0.0], expected [0, 0, 0, 1]",

@@ -61,6 +61,14 @@ def test_random_numbers_are_xorshift_from_a_spread_seed(seed, index):
     assert int(ik_kernels.next_random(state)) == shifted(seeded(seed, index))
 
 
+@pytest.mark.parametrize("m", [1, 6, 20])
+def test_memory_of_a_try_has_rows_of_four_numbers_a_coordinate_and_sixteen_more(m):
+    work = ik_kernels.scratch_of_try(m)
+    assert (work.T.shape, work.J.shape, work.H.shape) == ((4, 4), (6, m), (m, m))
+    # of an arm's code these are sines and cosines of twice as many angles as it has coordinates
+    assert work.rows.shape == (4, 2 * 2 * m + 16)
+
+
 def rotation_error(T: np.ndarray, target: np.ndarray) -> tuple[float, float, float]:
     return pose_error.rotation_error(T[:3, :3].ravel(), target[:3, :3].ravel())
 

@@ -8,7 +8,7 @@ import platform
 
 import numpy as np
 import pytest
-from llvmlite import binding
+from llvmlite import binding, ir
 from numba import njit
 from numba.core import config
 
@@ -16,7 +16,13 @@ from poekin.engine.kernels import arm_kernels
 from poekin.engine.kernels.arm_kernels import run_columns as columns_of_four
 from poekin.engine.kernels.arm_kernels import sines_of_block
 from poekin.engine.straight_line.arm_code import ArmCode, arm_code
-from poekin.engine.straight_line.machine_code import LANES, object_code, processor
+from poekin.engine.straight_line.machine_code import (
+    FUNCTIONS,
+    LANES,
+    _Function,
+    object_code,
+    processor,
+)
 from poekin.formats.load import load
 
 
@@ -49,6 +55,15 @@ def test_machine_code_is_that_of_the_processor_named(monkeypatch, program):
         assert processor() == (name, "")
         codes[name] = object_code(program, True)
     assert codes["nehalem"] != codes["haswell"]
+
+
+@pytest.mark.parametrize(("layout", "fused"), [("rows", True), ("columns", False)])
+def test_products_and_sums_may_be_fused_in_rows_and_not_in_columns(program, layout, fused):
+    module = ir.Module("arm")
+    for name, lanes in FUNCTIONS[layout].items():
+        _Function(module, name, lanes, layout).write(program, True)
+    steps = [line for line in str(module).splitlines() if " fadd " in line or " fmul " in line]
+    assert {"contract" in line for line in steps} == {fused}
 
 
 def test_the_code_of_each_processor_is_kept_by_itself(monkeypatch, tmp_path, program):

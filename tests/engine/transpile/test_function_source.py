@@ -127,7 +127,17 @@ def a_rest_of_doubles(a, out):
     out[0] = a[0] % 2.0
 
 
+def the_largest_of_one(a, out):
+    out[0] = max(a[0])
+
+
+def the_largest_of_rows(a, out):
+    out[0] = max(a, a)
+
+
 REFUSED = {
+    the_largest_of_one: ("max(", "max of anything but two numbers or more"),
+    the_largest_of_rows: ("max(", "max of anything but two numbers or more"),
     a_word_and_a_number: ("+ a[0]", "the operator Add here"),
     a_word_of_a_double: ("np.int64(", "np.uint64 of anything but an integer"),
     a_word_or_a_number: ("x = 2", "the name x for values of two types"),

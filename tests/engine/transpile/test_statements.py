@@ -26,6 +26,7 @@ def arithmetic(a, out):
     out[5] = 0.1 + 0.2
     out[6] += a[1]
     out[6] *= a[2]
+    out[7] = -(-a[1])  # noqa: B002
     out[-1] = a[-1]
 
 
@@ -134,6 +135,18 @@ def loops(a, out):
     out[10] = steps
 
 
+def loops_in_loops(a, out):
+    at = 0
+    for row in ((a[0], a[1]), (a[2], a[3])):
+        for x in row:
+            out[at] += x * row[0]
+        for y in (a[4], a[5]):
+            for x in row:
+                out[2 + at] += x * y
+        out[4 + at] = row[1]
+        at += 1  # noqa: SIM113
+
+
 def functions(a, out):
     out[0] = elementary.sqrt(abs(a[0]))
     out[1] = elementary.sqrt(elementary.below(a[0], 0.0) * 1.0)
@@ -178,6 +191,7 @@ CONSTRUCTS = (
     numbers_that_are_none,
     tuples,
     loops,
+    loops_in_loops,
     functions,
     rows,
     early,

@@ -13,7 +13,7 @@ from poekin.groups.arrays import ROUNDOFF
 from poekin.model import screw
 from poekin.model.chain import Chain
 from poekin.model.geometry.axis_walk import Walk
-from poekin.model.geometry.idealise import _nearest, _settled, _way
+from poekin.model.geometry.idealise import _bounds, _nearest, _settled, _way
 from poekin.model.geometry.normals import digits, exact, frame_on_line
 
 OFF, TOL = 1e-6, 1e-5
@@ -66,6 +66,15 @@ def test_what_is_behind_a_turn_counts_with_all_its_lengths_and_slides():
     # Behind the first turn are 3 m of slide and links of 2 and 3 m; it is turned back about the
     # slide's axis.
     assert position == pytest.approx((3 + 2 + 3) + (2 + 3), rel=1e-6)
+
+
+def test_without_a_change_the_bound_is_the_rounding_of_the_lines():
+    chain = Chain.from_space([screw.revolute(Z, [0, 2, 0])], np.eye(4))
+    frames = [frame(Z, o) for o in ((0, 0, 0), (0, 3, 0), (0, 8, 0))]
+    with digits():
+        position, rotation = _bounds(chain, frames, frames)
+    assert rotation == 3 * 8 * ROUNDOFF
+    assert position == (3 + 5) * rotation  # the links' lengths, which are more than the reach
 
 
 def frame(z, o):

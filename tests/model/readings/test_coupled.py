@@ -160,6 +160,14 @@ def test_random_configurations_keep_the_joints_within_their_own_limits():
     np.testing.assert_array_equal(ARM.random(3, 5), ARM.random(3, 5))
 
 
+def test_what_is_drawn_again_is_spread_over_the_coordinates_limits_as_what_is_drawn_first():
+    one = pk.Chain.from_space(ARM.screws[:1], ARM.home, limits=[[-1.0, 3.0]])
+    q = one.replace(joint_limits=[[-0.5, 1.5]]).random(0, 4000)  # every second one is drawn again
+    found = np.quantile(q, [0.0, 0.25, 0.5, 0.75, 1.0])
+    # five standard deviations of the median of 4000 numbers of density 1/2
+    np.testing.assert_allclose(found, [-0.5, 0.0, 0.5, 1.0, 1.5], rtol=0, atol=5 / 4000**0.5)
+
+
 @pytest.mark.parametrize(
     "own", [(7.0, 8.0), (-700.0, -699.0), (6.2, 8.0), (7.0, np.inf), (-np.inf, -7.0)], ids=str
 )

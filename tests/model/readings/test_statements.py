@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from poekin.errors import InputError
+from poekin.errors import InputError, quote
 from poekin.model.readings.statements import (
     LONGEST,
     MOST,
@@ -123,5 +123,7 @@ def test_statements_are_as_people_write_them():
 def test_a_name_with_quotes_of_both_kinds_cannot_be_written():
     name = "a'b\"c"
     K = parse_statements(f"J1 = J1 + {name}", ["J1", name])
-    with pytest.raises(InputError, match=r"has quotes of both kinds and cannot be written$"):
+    with pytest.raises(InputError) as caught:
         make_statements(K, ["J1", name])
+    said = f"coupling: {quote(name)} has quotes of both kinds and cannot be written"
+    assert str(caught.value) == said

@@ -102,6 +102,14 @@ MATRICES = {
         [FIVE[0], HOME], "the (4, 4) matrix at 1 is no screw; the home pose is an argument of its own"
     ),
     "a pose": (HOME, "the (4, 4) matrix at 0 is no screw; the home pose is an argument of its own"),
+    "a turn without its last row": (
+        [np.diag([1.0, 1.0, 1.0, 0.0])],
+        "the (4, 4) matrix at 0 is no screw; the home pose is an argument of its own",
+    ),
+    "a last row without a turn": (
+        [np.diag([0.0, 0.0, 0.0, 1.0])],
+        "the (4, 4) matrix at 0 is no screw; the home pose is an argument of its own",
+    ),
     "twists as matrices": (
         [pk.se3.hat(S) for S in FIVE], "the (4, 4) matrix at 0 is [A] of a twist: pass pk.se3.vee of it"
     ),

@@ -74,6 +74,15 @@ def test_the_frames_are_those_of_base_and_tool_to_one_scale(arm):
     assert np.allclose(widths, widths[0])
 
 
+def test_axes_their_numbers_and_labels_are_within_the_page(arm):
+    figure = arm.plot([0.3, 0.2, -0.4])
+    (axes,) = figure.axes
+    figure.draw_without_rendering()
+    found = axes.get_tightbbox()
+    assert figure.bbox.x0 <= found.x0 < found.x1 <= figure.bbox.x1
+    assert figure.bbox.y0 <= found.y0 < found.y1 <= figure.bbox.y1
+
+
 @pytest.mark.parametrize("q", [np.zeros((2, 3)), [0.0, np.nan, 0.0]], ids=["batch", "nan"])
 def test_what_is_no_single_finite_configuration_is_refused(arm, q):
     with pytest.raises(InputError, match=r"^q: expected one finite configuration \(3,\), got "):

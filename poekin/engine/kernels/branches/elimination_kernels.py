@@ -12,6 +12,7 @@ from typing import NamedTuple
 from ....algebra import rotate, subtract, transform
 from ....formulas import elementary
 from ....formulas.ik.elimination import circle_roots, joints, line_equations, resultant
+from ....formulas.ik.slides.position import across
 from ...jit.array_io import without_refcount
 from ...jit.kernel import kernel
 from ...lanes import rows as lanes
@@ -20,7 +21,6 @@ from .elimination_loop import (
     BEGIN,
     QUARTERS,
     REVERSED,
-    across_of,
     directions,
     is_far_side_fixed,
     loop,
@@ -84,7 +84,7 @@ def _loop(arm, target, axes):
         subtract(moved, point(axes, 0)),
         rotate(R, last),
         R,
-        across_of(last),
+        across(last),
     )
 
 

@@ -3,13 +3,10 @@
 Arm: the table (9, 9) of `elimination_kernels`.
 """
 
-import math
-
 from ....algebra import (
     add,
     compose,
     cross,
-    dot,
     inverse,
     make_pose,
     rotate,
@@ -17,6 +14,7 @@ from ....algebra import (
     subtract,
     transform,
 )
+from ....formulas.ik.slides.position import across
 from ...jit.array_io import load_matrix
 
 UNIT = 0
@@ -92,7 +90,7 @@ def loop(arm, G, axes):
             o = transform(G, point(axes, k))
             _store(axes[k], h, o)
     z = _direction(axes, 1)
-    x = across_of(z)
+    x = across(z)
     frame = make_pose((*x, *cross(z, x), *z), (0.0, 0.0, 0.0))
     origin = rotate(frame, point(axes, 1))
     frame = make_pose(nine(frame), scale(-1.0, origin))
@@ -147,18 +145,3 @@ def steps(axes):
         _step(axes, 3),
         _step(axes, 4),
     )
-
-
-def across_of(h):
-    """A unit vector across another one."""
-    x = abs(h[0])
-    y = abs(h[1])
-    z = abs(h[2])
-    least = (0.0, 0.0, 1.0)
-    if x <= min(y, z):
-        least = (1.0, 0.0, 0.0)
-    elif y <= z:
-        least = (0.0, 1.0, 0.0)
-    a = cross(h, least)
-    length = math.sqrt(dot(a, a))
-    return scale(1.0 / length, a)

@@ -46,12 +46,10 @@ def roots(slides, h, P, p):
 def across(h):
     """A unit vector across a unit vector."""
     x, y, z = h
-    if abs(x) <= abs(y) and abs(x) <= abs(z):
+    if abs(x) <= abs(y):  # v is of length 1/sqrt(2) or more either way
         v = (0.0 * x, z, -y)
-    elif abs(y) <= abs(z):
-        v = (-z, 0.0 * x, x)
     else:
-        v = (y, -x, 0.0 * x)
+        v = (-z, 0.0 * x, x)
     return scale(1.0 / elementary.sqrt(dot(v, v)), v)
 
 

@@ -70,12 +70,13 @@ def _wrists(
     before = list(joints[:i])
     behind = list(joints[i + made_of :])
     if made_of == 1:
-        if group[0].slides:
+        joint = joints[i]
+        if joint.slides:
             return
-        h = group[0].direction
+        h = joint.direction
         for share in _ALONG:
-            place = group[0].point + share * reach * h
-            own = group[0]._replace(point=place)
+            place = joint.point + share * reach * h
+            own = joint._replace(point=place)
             u = across(h)
             wrist = [own, _turns(u, place), _turns(np.cross(h, u), place)]
             words = f"a point of axis {i + 1}"

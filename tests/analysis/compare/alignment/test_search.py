@@ -114,6 +114,23 @@ def test_a_link_of_another_shape_moves_what_is_behind_it_and_the_tool_with_it(n,
     assert _links(same, rigid_poses(same).at) == []
 
 
+@pytest.mark.parametrize("axis", [0, 1, 2, 4])
+@pytest.mark.parametrize(("tolerances", "links"), [(0.6, 1), (1.6, 0)])
+def test_axes_on_both_sides_of_a_link_agree_within_the_tolerance(axis, tolerances, links):
+    chain = random_arm(7, ("revolute",) * 5)
+    bent = se3.exp([0.02, 0.01, 0.03, 0.1, 0.2, 0.1])
+    S = np.concatenate([chain.screws[:2], chain.screws[2:] @ se3.adjoint(bent).T])
+    other = Chain.from_space(S, bent @ chain.home)
+    at = rigid_poses(sides(chain, other, TOL)).at
+    way = np.cross(S[axis, :3], [0.6, 0.0, 0.8])
+    step = tolerances * TOL.position * way / np.linalg.norm(way)
+    S[axis] = se3.adjoint(se3.exp([0, 0, 0, *step])) @ S[axis]
+    off = sides(chain, other.replace(screws=S), TOL)
+    assert len(_links(off, at)) == links
+    S[axis] *= -1.0  # an axis that points the other way is no link's
+    assert _links(sides(chain, other.replace(screws=S), TOL), at) == []
+
+
 def test_a_link_with_one_axis_behind_it_is_an_axis_that_moved():
     chain = random_arm(7, ("revolute",) * 4)
     S = chain.screws.copy()

@@ -75,6 +75,15 @@ def test_degrees_about_a_joint_s_own_axis_are_named_by_the_zeros_that_they_make(
     assert all(joint.zero_differs for joint in result.differing)
 
 
+def test_a_slide_that_begins_elsewhere_has_no_degrees():
+    one = pk.load("stanford").chain()
+    q = np.where([kind == "prismatic" for kind in one.kinds], (180 / np.pi - 1) * np.pi / 2, 0.0)
+    assert q.any()
+    result = compare(one, one.rezeroed(q).replace(limits=one.limits), samples=1)
+    assert [joint.zero_differs for joint in result.joints] == (q != 0).tolist()
+    assert result.mistake == ""
+
+
 @pytest.mark.parametrize("degrees", [(5,), (90,), (180,), (26.7,), (26.62, 5)])
 def test_other_zeros_are_no_degrees(degrees):
     one = arm("ur5e")

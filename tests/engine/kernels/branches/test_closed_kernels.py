@@ -27,6 +27,11 @@ def test_one_target_uncompiled_and_a_batch_compiled_have_the_same_rows(name, joi
     T = chain.fk(Q[:joints])
     one = np.full((8, 3 * joints + 1), np.nan)
     count = closed_kernels.fill(table, T, one)
+    solutions = one[:count][one[:count, -1] > 0, :joints]
+    assert len(solutions) == (8 if joints == 6 else len(solutions)) > 0
+    reached = chain.fk(solutions)
+    # 1e-8 m and rad: some thousand roundings, over how far from singular the pose is
+    np.testing.assert_allclose(reached, np.broadcast_to(T, reached.shape), rtol=0, atol=1e-8)
     many = np.empty((2, 8, joints + 1))
     closed_kernels.branches_of(table).call(table, np.stack([T, T]), many)
     np.testing.assert_array_equal(many[0], many[1])

@@ -26,24 +26,32 @@ def table(arm, reverse, begin, by_quarters=0):
     return rows
 
 
-def solved(arm, T, *how):
+def solved(arm, T, *how, run=None):
     rows = np.full((len(T), elimination_kernels.MOST, 7), np.nan)
     counts = np.empty((len(T), 2))
-    elimination_kernels.eliminated.call(table(arm, *how), T, rows, counts)
+    run = elimination_kernels.eliminated.call if run is None else run
+    run(table(arm, *how), T, rows, counts)
     return rows, counts
+
+
+def plain(*arrays):
+    """Not compiled."""
+    elimination_kernels.eliminated.function(*arrays)
 
 
 @pytest.mark.parametrize("reverse", [0, 1])
 @pytest.mark.parametrize("begin", range(6))
 def test_every_loop_finds_the_configuration_of_the_pose(reverse, begin):
     arm = chain(4)
-    q = np.random.default_rng(0).uniform(-np.pi, np.pi, (20, 6))
-    rows, counts = solved(arm, arm.fk(q), reverse, begin)
-    known = rows[:, :, 6] >= 0
-    off = np.abs((rows[:, :, :6] - q[:, None] + np.pi) % (2 * np.pi) - np.pi).max(axis=2)
-    off = np.where(known, off, np.inf).min(axis=1)
-    assert (off[counts[:, 1] == 0] < 1e-6).all()
-    assert (known.sum(axis=1) == counts[:, 0]).all()
+    for run, count in ((plain, 4), (None, 20)):
+        q = np.random.default_rng(0).uniform(-np.pi, np.pi, (count, 6))
+        rows, counts = solved(arm, arm.fk(q), reverse, begin, run=run)
+        known = rows[:, :, 6] >= 0
+        off = np.abs((rows[:, :, :6] - q[:, None] + np.pi) % (2 * np.pi) - np.pi).max(axis=2)
+        off = np.where(known, off, np.inf).min(axis=1)
+        assert (off[counts[:, 1] == 0] < 1e-6).all()
+        assert (counts[:, 1] == 0).sum() >= count // 2
+        assert (known.sum(axis=1) == counts[:, 0]).all()
 
 
 def test_a_loop_whose_first_axes_meet_is_said_to_degenerate():
@@ -58,9 +66,7 @@ def test_plain_python_which_takes_one_number_at_once_finds_the_same():
     arm = chain(4)
     T = arm.fk(np.random.default_rng(0).uniform(-np.pi, np.pi, (3, 6)))
     rows, counts = solved(arm, T, 1, 2)
-    others = np.full_like(rows, np.nan)
-    other_counts = np.empty_like(counts)
-    elimination_kernels.eliminated.function(table(arm, 1, 2), T, others, other_counts)
+    others, other_counts = solved(arm, T, 1, 2, run=plain)
     np.testing.assert_array_equal(counts, other_counts)
     known = rows[:, :, 6] >= 0
     # each within 1e-7 of its pose, to which Newton's rule has come quadratically

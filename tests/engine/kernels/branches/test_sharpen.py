@@ -36,6 +36,18 @@ def run(chain, q, T, owners, fixed=None, steps=8):
     return end, errors
 
 
+@pytest.mark.parametrize("m", [1, 6, 9])
+def test_memory_has_each_number_of_all_four_side_by_side_and_room_for_the_arm_s_code(m):
+    fixed = np.arange(m) % 2.0
+    one = kernel.sharpening(fixed)
+    assert one.weights.tolist() == [1.0] * 6
+    np.testing.assert_array_equal(one.free, fixed == 0)
+    assert (one.T.shape, one.J.shape) == ((4, 4, 4), (4, 6, m))
+    assert (one.rows.shape, one.H.shape) == ((6, 4 * m), (m, 4 * m))
+    assert (one.e.shape, one.step.shape) == ((24,), (4 * m,))
+    assert one.code.shape == (8 * (m + kernel.SPARE),)  # sines and cosines of as many angles
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_each_of_four_ends_at_the_target_of_its_owner(seed):
     q = CHAIN.random(seed, 2)

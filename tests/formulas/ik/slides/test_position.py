@@ -60,6 +60,14 @@ def smallest_velocity(slides, h, P, x):
     return np.linalg.svd(np.array(J))[1][-1]
 
 
+@given(SEEDS, st.booleans())
+def test_a_vector_across_is_of_unit_length_whichever_way_the_axis_points(seed, square):
+    for h in arm(seed, square)[0]:
+        u = position.across(tuple(h))
+        assert abs(np.dot(u, h)) <= 4 * U
+        assert abs(np.linalg.norm(u) - 1) <= 4 * U
+
+
 @pytest.mark.parametrize("slides", ALL, ids=NAMES)
 @given(SEEDS, st.booleans())
 def test_the_coordinates_that_a_place_was_made_of_are_found(slides, seed, square):

@@ -46,6 +46,44 @@ def test_words_count_joints_from_one():
     assert "axes 2 and 3 are parallel" in words
 
 
+@pytest.mark.parametrize(("first", "ways"), [(3, 1), (2, 6), (1, 4)])
+def test_a_wrist_is_completed_by_slides_of_any_directions_and_by_three_in_one_way(first, ways):
+    joints = joints_of(pk.load("puma560").chain())[first:]
+    found = [one for one in completions(joints, 2.0, NEAR) if "spherical" in one.words]
+    assert len(found) == ways
+    for one in found:
+        added = [joint for joint in one.joints if joint.column == ADDED]
+        assert all(joint.slides for joint in added)
+        assert np.linalg.matrix_rank([joint.direction for joint in added]) == len(added) == first
+
+
+@pytest.mark.parametrize("name", ["puma560", "stanford"])
+def test_of_one_axis_the_added_ones_meet_on_it_and_it_stays_the_arm_s(name):
+    joints = joints_of(pk.load(name).chain())
+    for i, joint in enumerate(joints):
+        found = [one for one in completions([joint], 2.0, NEAR) if one.words == "a point of axis 1"]
+        assert bool(found) == (not joint.slides)
+        for one in found:
+            own = one.joints[0]
+            assert (own.column, own.direction.tolist()) == (i, joint.direction.tolist())
+            along = own.point - joint.point
+            np.testing.assert_allclose(np.cross(along, joint.direction), 0, atol=1e-15)
+
+
+@pytest.mark.parametrize("reach", [0.02, 2.0])
+def test_an_axis_anywhere_is_half_a_reach_to_a_reach_from_the_arm_s_last(reach):
+    joints = joints_of(pk.load("ur5").chain())[1:4]
+    distances = [
+        np.linalg.norm(joint.point - joints[-1].point) / reach
+        for one in completions(joints, reach, NEAR)
+        if one.words in ("axes 1, 2 and 3 are parallel", "a point of the tip")
+        for joint in one.joints[3:]
+        if not joint.slides
+    ]
+    assert len(distances) > 3
+    assert 0.5 < min(distances) <= max(distances) < 1
+
+
 def test_a_joint_added_between_parallel_axes_is_clear_of_their_plane():
     joints = joints_of(pk.load("ur5").chain())[1:3]
     two = [one for one in completions([*joints], 2.0, NEAR) if one.family == PARALLEL]

@@ -45,6 +45,11 @@ def test_axes_that_pass_each_other_do_not_meet_within_less(off):
     assert module.meeting_point(axes, Tolerance(1e-13, off)) is not None
 
 
+def test_axes_that_meet_exactly_do_so_within_nothing():
+    axes = through(np.zeros(3), [0, 0, 1], [1, 0, 0])
+    assert module.meeting_point(axes, Tolerance(0.0, 0.0)) is not None
+
+
 def test_a_slide_neither_meets_nor_is_parallel():
     axes = through(np.zeros(3), [0, 0, 1], [1, 0, 0])
     slide = [axes[0], axes[1]._replace(slides=True)]
@@ -66,6 +71,40 @@ def test_parallel_axes_are_told_from_coaxial_and_tilted_ones(direction, place, e
     first = LoopJoint(np.array([0.0, 0.0, 1.0]), np.zeros(3), False)
     other = LoopJoint(np.asarray(direction, float), np.asarray(place), False)
     assert module.parallel([first, other], TIGHT) is expected
+
+
+Z, X, Y = np.array([0.0, 0, 1]), np.array([1.0, 0, 0]), np.array([0.0, 1, 0])
+OFF = np.array([0.0, 1e-9, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("turns", "slides", "expected"),
+    [
+        ([Z], [X], True),
+        ([Z, -Z], [X], True),
+        ([Z], [X, Y], True),
+        ([Z, Z], [], False),
+        ([], [X, Y], False),
+        ([Z], [Z], False),
+        ([Z], [X, OFF], False),
+        ([X], [Y, OFF], True),
+        ([Z, OFF], [X], True),
+        ([Z, OFF], [Y], True),
+        ([Z, X], [Y], False),
+        ([Z, X, Z], [Y], False),
+        ([Z, Z, X], [Y], False),
+    ],
+)
+def test_joints_move_in_a_plane_where_slides_are_across_axes_that_are_parallel(
+    turns, slides, expected
+):
+    loose = Tolerance(2e-9, 1e-13)
+    joints = [LoopJoint(h, 5 * h[::-1], False) for h in turns]
+    joints += [LoopJoint(h, np.zeros(3), True) for h in slides]
+    for order in (joints, joints[::-1]):
+        assert module.planar(order, loose) is expected
+    tight = expected and not any(h is OFF for h in turns)
+    assert module.planar(joints, TIGHT) is tight
 
 
 def test_joints_are_lines_at_the_zero_of_the_coordinates():

@@ -1,0 +1,43 @@
+"""Measures of a block, uncompiled: sums of roots of outputs, and what coordinates alone say."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from poekin.engine.kernels.sweep import measures
+from poekin.formulas.kinematics import joint_ranges
+
+RNG = np.random.default_rng(0)
+
+
+def test_a_sum_of_roots_is_of_the_outputs_above_zero():
+    outputs = RNG.uniform(-1, 1, (3, measures.LANES))
+    outputs[1, 2] = math.nan
+    values = np.full(10, 77.0)
+    said = (measures.ROOT, 1, 3, 0, 0)
+    measures.measure_lanes(said, np.empty(0), outputs, np.empty((0, 0)), np.empty(4), values, 5)
+    expected = np.sqrt(np.fmax(outputs, 0.0)).sum(axis=0)
+    np.testing.assert_allclose(values[5:9], expected, rtol=4 * 2.0**-53)
+    assert values[[0, 1, 2, 3, 4, 9]].tolist() == [77] * 6
+
+
+@pytest.mark.parametrize(
+    ("kind", "formula"),
+    [(measures.TRAVEL, joint_ranges.travel), (measures.MARGIN, joint_ranges.limit_margin)],
+)
+def test_a_measure_of_coordinates_is_its_formula_of_references_and_weights(kind, formula):
+    q = RNG.uniform(-1, 1, (7, 3))
+    numbers = RNG.uniform(0.5, 2, 6)
+    values = np.full(7, 77.0)
+    measures.measure_coordinates((kind, 1, 0, 0, 0), numbers, q, values)
+    assert values.tolist() == [formula(row, numbers[:3], numbers[3:], 3) for row in q]
+
+
+def test_a_kind_of_no_coordinates_measures_none():
+    values = np.full(2, 77.0)
+    for kind in (measures.NONE, *measures.OF_OUTPUTS):
+        measures.measure_coordinates((kind, 1, 0, 0, 0), np.ones(2), np.ones((2, 1)), values)
+    assert values.tolist() == [77, 77]
