@@ -41,6 +41,7 @@ _SLOW_LEAVES = (  # left for the end
 _SLOW = "formats/dh::test_every_chain_of_the_real_robots_has_a_table"  # left for the end
 
 NEAR = {
+    "__init__": "model/peer_names errors",
     "algebra": f"algebra formulas/forward formulas/recursive formulas/columns {_KINDS} {GROUPS} {CHAINS}",
     "formulas/": f"own {_KINDS} {CHAINS} {GROUPS}",
     "formulas/arctangent formulas/coefficients formulas/quaternion": f"own {_ANGLES}",
