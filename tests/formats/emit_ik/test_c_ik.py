@@ -289,6 +289,14 @@ def test_its_own_test_fails_where_one_digit_of_the_arm_is_wrong(build_once):
     assert (code, said.split()[-1]) == (0, "passed")
 
 
+def test_angles_are_alike_after_whole_turns_and_lengths_are_not():
+    screws = [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 0, 1]]
+    source = emit.c_ik(pk.Chain.from_space(screws, np.eye(4)), name="lift")
+    tables = re.findall(r"lift_ik_sizes\[4\] = \{(.*?)\}", source.source, re.DOTALL)
+    tables += re.findall(r"PERIODS\[2\] = \{(.*?)\}", source.selftest)
+    assert [[float(x) for x in table.split(",")[:2]] for table in tables] == [[2 * np.pi, 0.0]] * 2
+
+
 def test_it_needs_math_h_alone_and_no_memory():
     source = emitted("irb140")
     assert re.findall(r"#include (.*)", source.source) == ['"irb140_ik.h"', "<math.h>"]

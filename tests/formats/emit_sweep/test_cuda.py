@@ -132,6 +132,18 @@ def test_in_single_precision_samples_near_a_border_alone_fall_elsewhere(tmp_path
     np.testing.assert_allclose(best[same], wanted.reshape(-1)[same], rtol=0, atol=allowed)
 
 
+def test_its_comment_names_the_arguments_of_the_kernels_that_it_has():
+    chain = arm("one slide")
+    for measure, best in (("reach", ""), ("manipulability", ", best")):
+        text = emit.cuda(chain, "body", name="a", measure=measure)
+        assert (
+            f"a_sweep(first, last, samples, bounds, cells, place, counts, outside{best}):" in text
+        )
+        assert ("a_attained(" in text.partition("*/")[0]) == bool(best)
+    for frame, called in (("body", "body"), (0, "joint0")):
+        assert f"a_fk_jacobian_{called}_batch(count, q, T, J)" in emit.cuda(chain, frame, name="a")
+
+
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_name_stays_in_its_comment(name, tmp_path):
     chain = with_name(name)

@@ -209,6 +209,13 @@ def test_names_kinds_and_limits_are_those_of_the_file():
     assert robot.limits.tolist() == [[-np.pi / 2, np.pi / 2], [-np.inf, np.inf], [-np.inf, np.inf]]
 
 
+def test_joints_of_one_body_without_names_are_counted_from_1():
+    joints = "".join(f'<joint type="slide" axis="{axis}"/>' for axis in ("1 0 0", "0 1 0", "0 0 1"))
+    before = f'<body name="a">{G}<joint/></body>'
+    robot, _ = read(model_of(f'{before}<body name="b">{G}{joints}</body>'))
+    assert robot.q_names == ("a_joint", "b_joint1", "b_joint2", "b_joint3")
+
+
 DRIVE = 'damping="0.5" frictionloss="0.25"'
 
 

@@ -4,11 +4,15 @@ other libraries.
 
 from __future__ import annotations
 
+import re
+import runpy
+import sys
+
 import mpmath
 import numpy as np
 import pytest
 
-from poekin.errors import InputError
+from poekin.errors import InputError, MissingExtra
 from poekin.testing.oracles import exact, exact_jacobians, exact_numbers
 from poekin.testing.oracles.exact import mp, norm
 
@@ -284,3 +288,10 @@ def test_what_is_no_argument_is_refused(call, message):
 
 def test_nan_in_is_nan_out_without_a_warning():
     assert np.isnan(exact.rounded(exact.exp([np.nan, 0, 0]))).all()
+
+
+def test_without_mpmath_the_extra_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "mpmath", None)
+    message = "poekin.testing.oracles.exact needs the package mpmath: pip install 'poekin[testing]'"
+    with pytest.raises(MissingExtra, match=f"^{re.escape(message)}$"):
+        runpy.run_path(exact_numbers.__file__)

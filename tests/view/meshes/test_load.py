@@ -215,8 +215,12 @@ def test_a_file_that_is_too_large_is_refused_unread(tmp_path):
 
 def test_without_pycollada_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "collada", None)
-    with pytest.raises(MissingExtra, match=r"pycollada: pip install 'poekin\[view\]'"):
+    message = r"^drawing meshes needs the package {}: pip install 'poekin\[view\]'$"
+    with pytest.raises(MissingExtra, match=message.format("pycollada")):
         load.load(dae(), "m.dae")
+    monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
+    with pytest.raises(MissingExtra, match=message.format("trimesh")):
+        load.load(stl(), "m.stl")
 
 
 def test_what_no_geometry_names_is_nothing_to_refuse():
