@@ -421,6 +421,13 @@ def test_a_placement_that_is_no_pose_is_refused_with_its_frame():
         from_object(model)
 
 
+def test_a_joint_s_placement_that_is_no_pose_is_refused_with_its_joint():
+    model = stand_in()
+    model.jointPlacements[1] = np.eye(4) * 2
+    with pytest.raises(PoseError, match=r"^placement of joint 'j' is no pose: "):
+        from_object(model)
+
+
 def test_each_part_of_a_joint_of_several_degrees_of_freedom_has_its_own_limits():
     model = stand_in("JointModelTranslation")
     model.lowerPositionLimit, model.upperPositionLimit = [-1, -2, -3], [4, 5, 1e5]

@@ -144,7 +144,11 @@ def test_a_batch_of_poses_keeps_its_shape():
     ("call", "error", "words"),
     [
         (lambda: Cells.box([0, 0, 0], [1, 1, 1], 0.0), InputError, "resolution"),
-        (lambda: Cells.box([0, 0, 0], [1, 0, 1], 0.1), InputError, "lower below upper"),
+        (
+            lambda: Cells.box([0, 0, 0], [1, 0, 1], 0.1),
+            InputError,
+            r"^box: expected lower below upper, got \[0\. 0\. 0\.\] and \[1\. 0\. 1\.\]$",
+        ),
         (lambda: Cells.box([0, 0], [1, 1, 1], 0.1), ShapeError, "lower: expected three"),
         (lambda: Cells.box([0, 0, 0], [1, np.nan, 1], 0.1), ShapeError, "upper"),
         (lambda: Cells.box([0, 0, 0], [1, 1, 1], 1e-5), InputError, "at most 2"),

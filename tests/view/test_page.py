@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import dataclasses
 import json
 import re
 import sys
@@ -168,6 +169,15 @@ def test_a_notebook_shows_the_page_in_a_frame_that_it_cannot_leave(made):
 
 def test_a_page_says_what_it_is_in_one_line(made):
     assert re.fullmatch(r"<Page 'sliding arm', 1\.\d MB>", repr(made))
+
+
+def test_each_arm_s_functions_have_its_number():
+    scene = sliding_arm.scene()
+    twice = dataclasses.replace(scene, arms=(*scene.arms, *scene.arms))
+    numbers = re.findall(
+        r"window\.poekinKinematics\[(\d+)\] = \{ links, tips \};", page(twice).html
+    )
+    assert numbers == ["0", "1"]
 
 
 def test_without_k3d_the_extra_is_named(monkeypatch):

@@ -297,6 +297,16 @@ def test_angles_are_alike_after_whole_turns_and_lengths_are_not():
     assert [[float(x) for x in table.split(",")[:2]] for table in tables] == [[2 * np.pi, 0.0]] * 2
 
 
+def test_its_comments_say_what_goes_in_what_comes_out_and_of_which_form_it_is():
+    source = emitted("ur5e")
+    assert "ur5e_ik: from T[16] = (R, p; 0, 1), row by row, the pose of the tip" in source.header
+    family = closed_arm(pk.load("ur5e").chain()).family
+    assert f"In closed form: {family}. Each solution is held against" in source.header
+    told = " ".join(source.selftest.replace(" *", " ").split())
+    assert "exits with 0 if that is kept and each target" in told
+    assert "A whole turn of each coordinate that is an angle, 0 of a length." in told
+
+
 def test_it_needs_math_h_alone_and_no_memory():
     source = emitted("irb140")
     assert re.findall(r"#include (.*)", source.source) == ['"irb140_ik.h"', "<math.h>"]

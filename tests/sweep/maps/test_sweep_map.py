@@ -10,6 +10,8 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError, UnknownName
 from poekin.sweep import Cells, Grid, Random, Sweep, run
+from poekin.sweep.bins import TopList
+from poekin.sweep.maps.sweep_map import map_of
 from tests.sweep.arms import measured, two_links
 
 ARM = two_links()
@@ -91,3 +93,9 @@ def test_the_summary_says_volume_directions_and_measure():
 def test_a_map_shows_itself_in_a_notebook():
     assert "reached" in MEASURED._repr_html_()
     assert pk.sweep.SweepMap is type(MEASURED)
+
+
+def test_of_other_than_cells_there_is_no_map():
+    sweep = Sweep(ARM, MEASURED.samples, TopList(3), "manipulability")
+    with pytest.raises(InputError, match=r"^map: expected a sweep of Cells, got TopList$"):
+        map_of(sweep, None)  # type: ignore[arg-type]

@@ -119,7 +119,10 @@ def test_what_is_unknown_is_named(oracle):
         oracle.poses({"bendd": 0.0}, "e")
     with pytest.raises(UnknownName, match="no link 'elbow'"):
         oracle.poses({}, "elbow")
-    with pytest.raises(InputError, match=r"lengths \[2, 3\]"):
+    with pytest.raises(
+        InputError,
+        match=r"^values of one length for every coordinate expected, got lengths \[2, 3\]$",
+    ):
         oracle.poses({"bend": np.zeros(2), "turn": np.zeros(3)}, "e")
 
 

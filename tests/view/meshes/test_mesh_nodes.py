@@ -106,6 +106,15 @@ def test_all_files_together_may_have_so_many_bytes(folder, monkeypatch):
     assert "meshes before it" in left.why
 
 
+def test_what_a_robot_s_meshes_have_already_is_said_in_mib(folder, monkeypatch):
+    (folder / "n.stl").write_bytes(stl(TETRAHEDRON * 2))
+    monkeypatch.setattr(module, "MOST_BYTES", 3 << 20)
+    monkeypatch.setattr(module.os.path, "getsize", lambda _: 2 << 20)
+    robot = robot_of(folder, visual(MESH) + visual('<mesh filename="n.stl"/>'))
+    _, (left,) = mesh_nodes(robot)
+    assert left.why == "the meshes before it have 3 MiB already"
+
+
 def test_of_a_robot_a_thousand_shapes_are_drawn_and_the_next_one_is_named(folder):
     box = '<box size="1 2 3"/>'
     (node,), (left,) = mesh_nodes(robot_of(folder, visual(box) * 1000 + visual(MESH)))
