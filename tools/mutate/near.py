@@ -114,6 +114,7 @@ NEAR = {
     "view/scenes/sweep_map": "view/sweep_map_scene view/view",
     "engine/kernels/sweep/": "sweep/",
     "view/view": "own",
+    "cli/fk": "own cli/units cli/poses",
     "cli/draw": "own cli/compare",
     "cli/view": "own",
     "engine/tree": "own model/link_program",

@@ -479,6 +479,10 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(
             "--sigma-angle and --sigma-length: of measured poses, both expected or neither",
         ),
         (
+            ["--sigma-length", "1e-3"],
+            "--sigma-angle and --sigma-length: of measured poses, both expected or neither",
+        ),
+        (
             ["--sigma-angle", "-1", "--sigma-length", "1"],
             "--sigma-angle: expected a positive number, got -1.0",
         ),
