@@ -369,6 +369,14 @@ def test_an_axis_that_a_joint_does_not_have_itself_is_read_off_its_motion_subspa
                 createData=lambda: SimpleNamespace(S=np.zeros(6)),
             )
         )
+    with pytest.raises(ModelError, match=r"'RevoluteUnboundedUnaligned' joint of multiplier 0$"):
+        from_object(
+            stand_in(
+                "JointModelRevoluteUnboundedUnaligned",
+                createData=lambda: SimpleNamespace(S=np.zeros(6)),
+                scaling=0.0,
+            )
+        )
 
 
 def test_frames_and_joints_of_one_name_get_names_of_their_own():

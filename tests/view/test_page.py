@@ -165,6 +165,13 @@ def test_a_notebook_shows_the_page_in_a_frame_that_it_cannot_leave(made):
     assert (tag, others) == ("iframe", [])
     assert attributes["srcdoc"] == made.html
     assert attributes["sandbox"] == "allow-scripts"
+    assert attributes["style"] == "width:100%;height:640px;border:0"
+
+
+def test_a_page_is_as_wide_as_the_screen_that_it_is_on(made):
+    found = Elements(made.html).found
+    (content,) = [words["content"] for tag, words in found if words.get("name") == "viewport"]
+    assert content == "width=device-width, initial-scale=1"
 
 
 def test_a_page_says_what_it_is_in_one_line(made):

@@ -115,6 +115,8 @@ NEAR = {
     "engine/kernels/sweep/": "sweep/",
     "view/view": "own",
     "cli/fk": "own cli/units cli/poses",
+    "cli/model": "own cli/coupling cli/vendor_files cli/from_ros cli/options",
+    "cli/poses": "own cli/options cli/ik cli/units",
     "cli/draw": "own cli/compare",
     "cli/view": "own",
     "engine/tree": "own model/link_program",

@@ -337,8 +337,14 @@ def test_a_bad_command_line_is_one_message(crane, refused, words, message):
 
 def test_the_frame_of_a_jacobian_has_no_default(crane, refused):
     assert "--frame" in refused("jacobian", crane, "--tip", "hook", 0, 0)
-    for frame in ("tool", "1_0", "\u0661", "9" * 5000):
-        assert "space, body, hybrid or the number of a joint (from 0)" in refused(
+    expected = "--frame: space, body, hybrid or the number of a joint (from 0) expected, got"
+    for frame, got in (
+        ("tool", "'tool'"),
+        ("1_0", "'1_0'"),
+        ("\u0661", "'\u0661'"),
+        ("9" * 5000, "'9"),
+    ):
+        assert f"{expected} {got}" in refused(
             "jacobian", crane, "--tip", "hook", "--frame", frame, 0, 0
         )
 

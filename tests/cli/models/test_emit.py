@@ -175,7 +175,7 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
         (("--lang", "c", "--frame", ""), "--frame: space, body, hybrid, cheapest or the number"),
         (
             ("--lang", "c", "--frame", "world"),
-            "--frame: space, body, hybrid, cheapest or the number of a joint",
+            "--frame: space, body, hybrid, cheapest or the number of a joint (from 0) expected, got 'world'",
         ),
         (("--lang", "c", "--frame", "7"), "0 to 6, got 7"),
         (("--lang", "c", "--frame", "-1"), "0 to 6, got -1"),

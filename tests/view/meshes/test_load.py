@@ -133,7 +133,7 @@ HOSTILE = {
     "a circle": (dae('<instance_node url="#n"/>'), "m.dae", "name each other"),
     "many of one": (dae('<instance_geometry url="#g"/>' * 10_001), "m.dae", "too many times"),
     "a zip": (b"PK\3\4" + b"\0" * 100, "m.dae", "malformed XML"),
-    "no glb": (b"glTF", "m.glb", "no GLB"),
+    "no glb": (b"glTF", "m.glb", "it is no GLB of version 2"),
     "an array larger than its file": (
         glb(accessors=[{"componentType": 5126, "count": 10**12, "type": "VEC3"}] * 2),
         "m.glb",
