@@ -115,6 +115,7 @@ NEAR = {
     "engine/kernels/sweep/": "sweep/",
     "view/view": "own",
     "cli/fk": "own cli/units cli/poses",
+    "cli/show": "cli/reach cli/options",
     "cli/model": "own cli/coupling cli/vendor_files cli/from_ros cli/options",
     "cli/poses": "own cli/options cli/ik cli/units",
     "cli/draw": "own cli/compare",

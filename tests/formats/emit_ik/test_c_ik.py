@@ -340,13 +340,28 @@ def test_a_hostile_name_stays_in_its_comment(build_once):
 
 def test_an_arm_without_closed_form_is_refused_with_the_reason():
     general = calibrated(pk.load("ur5e").chain(), np.random.default_rng(2), 0.1, 0.1)
-    with pytest.raises(InputError, match="has no closed form that is known here: no three neigh"):
+    with pytest.raises(
+        InputError,
+        match=r"^emit: 'base' -> 'tool' has no closed form that is known here: no three neigh",
+    ):
         emit.c_ik(general)
-    with pytest.raises(InputError, match="expected an arm of one to six joints for its inverse"):
+    with pytest.raises(
+        InputError,
+        match=r"six joints for its inverse kinematics, 'panda_link0' -> 'panda_hand' has 7 coordinates$",
+    ):
         emit.c_ik(pk.load("panda").chain(tip="panda_hand"))
     screw = pk.load("ur5e").chain().screws[0] + [0, 0, 0, 0, 0, 0.1]
     helical = pk.Chain.from_space([screw], np.eye(4))
-    with pytest.raises(InputError, match=r"revolute and prismatic joints only .* is helical"):
+    with pytest.raises(
+        InputError, match=r"revolute and prismatic joints only .*, 'joint1' is helical$"
+    ):
         emit.c_ik(helical)
+    both = pk.Chain.from_space(pk.load("ur5e").chain().screws[:2], np.eye(4), coupling=[[1], [1]])
+    with pytest.raises(InputError) as caught:
+        emit.c_ik(both)
+    assert str(caught.value) == (
+        "emit: expected one coordinate a joint for the inverse kinematics, the 2 joints of"
+        " 'base' -> 'tool' are coupled to 1 coordinates"
+    )
     with pytest.raises(InputError, match=r"^name: expected a text, got None$"):
         emit.c_ik(pk.load("ur5e").chain(), name=None)  # type: ignore[arg-type]

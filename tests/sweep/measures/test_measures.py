@@ -170,7 +170,9 @@ def test_a_coordinate_without_limits_has_no_margin():
     found = run(Sweep(free, samples, one, "limit_margin", "worst"))
     assert np.nanmin(np.asarray(found.best)) == pytest.approx(1 - np.abs(q[:, 0]).max(), abs=1e-15)
     bare = pk.Chain(two_links().screws, np.eye(4), frame="space")
-    with pytest.raises(InputError, match=r"limit_margin': no coordinate of .* has limits"):
+    with pytest.raises(
+        InputError, match=r"^sweep: measure 'limit_margin': no coordinate of <Chain .*> has limits$"
+    ):
         Sweep(bare, Random.of(bare, 5), CELLS, "limit_margin")
 
 

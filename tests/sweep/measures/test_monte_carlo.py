@@ -72,8 +72,14 @@ def test_one_configuration_a_batch_and_a_dict_are_alike():
     assert one.position == batch.position[1]
     assert one.draws == 30_000
     assert monte_carlo(chain, q[1], error, draws=3).draws == 4
-    text = f"30000 arms, standard deviations: position {1e3 * batch.position.max():.4g} mm, bias "
-    assert batch.summary().startswith(text)
+    biases = [
+        np.linalg.norm(b, axis=1).max() for b in (batch.position_bias, batch.orientation_bias)
+    ]
+    assert batch.summary() == (
+        f"30000 arms, standard deviations: position {1e3 * batch.position.max():.4g} mm,"
+        f" bias {1e3 * biases[0]:.2g} mm; orientation {1e3 * batch.orientation.max():.4g} mrad,"
+        f" bias {1e3 * biases[1]:.2g} mrad"
+    )
     assert monte_carlo(chain, q[:0], error).summary() == "no configuration"
     other = monte_carlo(chain, q[1], error, draws=30_000, seed=2)
     assert other.position != one.position

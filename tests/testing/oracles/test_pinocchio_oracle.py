@@ -117,7 +117,7 @@ def test_a_floating_joint_stays_at_identity():
 def test_what_is_unknown_is_named(oracle):
     with pytest.raises(UnknownName, match="no coordinate 'bendd'; did you mean 'bend'"):
         oracle.poses({"bendd": 0.0}, "e")
-    with pytest.raises(UnknownName, match="no link 'elbow'"):
+    with pytest.raises(UnknownName, match=r"^Pinocchio has no link 'elbow'; available: '"):
         oracle.poses({}, "elbow")
     with pytest.raises(
         InputError,
@@ -128,7 +128,7 @@ def test_what_is_unknown_is_named(oracle):
 
 def test_what_is_no_argument_is_refused(oracle):
     with pytest.raises(
-        InputError, match=r"expected a URDF itself, not where it is: Path.* got 'arm\.urdf'"
+        InputError, match=r"expected a URDF itself, not where it is: Path.* got 'arm\.urdf'$"
     ):
         PinocchioOracle("arm.urdf")
     with pytest.raises(
