@@ -19,6 +19,7 @@ from poekin.formats.emit.messages import (
     robot_lines,
 )
 from poekin.formats.emit.statements import by_outputs
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 from .emitted import arm
 
@@ -154,3 +155,8 @@ def test_a_program_of_vectors_says_what_it_allows_and_how_it_ends():
     said = " ".join(program.partition("*/")[0].replace("\n *", " ").split())
     assert f"allowed, which is {allowed} (1, m or m per rad), and exits with 0 if that is" in said
     assert "if that is kept, else with 1." in said
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.formats.emit", "messages statements c"))
+def test_what_is_emitted_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError, PoseError, ShapeError
 from poekin.sweep import Cells
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 
 def centre(face, i, j, n):
@@ -173,3 +174,8 @@ def test_what_is_no_box_and_no_pose_is_refused(call, error, words):
 
 def test_the_public_name_is_this_one():
     assert pk.sweep.Cells is Cells
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.sweep", "cells"))
+def test_a_box_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

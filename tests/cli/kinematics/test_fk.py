@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from poekin.formats.load import load
+from tests.findings import dataclasses_of
 
 
 @pytest.fixture
@@ -366,3 +367,8 @@ def test_a_directory_or_a_text_that_is_no_text_is_refused(crane, refused, tmp_pa
     assert "Is a directory" in refused("fk", crane, "--tip", "hook", "--input", tmp_path)
     (tmp_path / "q.csv").write_bytes(b"\xff\xfe\x00")
     assert "not UTF-8" in refused("fk", crane, "--tip", "hook", "--input", tmp_path / "q.csv")
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.cli.kinematics", "arm fk"))
+def test_neither_arguments_nor_results_are_changed_on_the_way(kind):
+    assert kind.__dataclass_params__.frozen

@@ -12,6 +12,7 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError
 from poekin.sweep import Grid, JointTravel, Random, Sobol, histogram
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import slide, two_links
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -126,3 +127,8 @@ def test_its_summary_says_below_which_value_a_share_of_the_configurations_is():
         )
     empty = histogram(two_links(), "manipulability", bins=1, ends=(8.0, 9.0), samples=10)
     assert empty.summary() == "0 configurations, 10 more outside of the bins"
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.sweep.maps", "histogram"))
+def test_a_histogram_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
@@ -12,6 +12,7 @@ from poekin.errors import InputError, UnknownName
 from poekin.sweep import Cells, Grid, Random, Sweep, run
 from poekin.sweep.bins import TopList
 from poekin.sweep.maps.sweep_map import map_of
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import measured, two_links
 
 ARM = two_links()
@@ -97,7 +98,22 @@ def test_a_map_shows_itself_in_a_notebook():
     assert pk.sweep.SweepMap is type(MEASURED)
 
 
+def test_a_sweep_is_frozen_and_not_compared_number_by_number():
+    sweep = Sweep(ARM, MEASURED.samples, CELLS)
+    with pytest.raises(FrozenInstanceError):
+        sweep.keep = "worst"  # type: ignore[misc]
+    assert sweep != Sweep(ARM, MEASURED.samples, CELLS)
+
+
 def test_of_other_than_cells_there_is_no_map():
     sweep = Sweep(ARM, MEASURED.samples, TopList(3), "manipulability")
     with pytest.raises(InputError, match=r"^map: expected a sweep of Cells, got TopList$"):
         map_of(sweep, None)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [*dataclasses_of("poekin.sweep.maps", "sweep_map"), *dataclasses_of("poekin.sweep", "bins")],
+)
+def test_a_map_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

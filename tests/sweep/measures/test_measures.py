@@ -25,6 +25,7 @@ from poekin.sweep.measures.dexterity import PoseManipulability
 from poekin.sweep.measures.measure import Reach
 from poekin.sweep.measures.names import LABELS, MeasureName, measure_of
 from poekin.sweep.sweep import Keep
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import slide, two_links
 from tests.sweep.measures.first_order import effects
 
@@ -227,3 +228,10 @@ def test_what_cannot_be_measured_is_refused(make, kind, words):
 def slide_of_three():
     screws = [pk.screw.prismatic(axis) for axis in np.eye(3)]
     return pk.Chain(np.array(screws), np.eye(4), frame="space")
+
+
+@pytest.mark.parametrize(
+    "kind", dataclasses_of("poekin.sweep.measures", "joints dexterity measure")
+)
+def test_a_measure_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

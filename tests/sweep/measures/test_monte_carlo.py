@@ -10,6 +10,7 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError
 from poekin.sweep import PoseUncertainty, monte_carlo
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import slide, two_links
 from tests.sweep.measures.first_order import effects
 
@@ -95,3 +96,10 @@ def test_what_cannot_be_drawn_is_refused(options, words):
         monte_carlo(slide(), [0.1, 0.3], error, **options)
     with pytest.raises(InputError, match="it is of an arm of 2 joints"):
         monte_carlo(pk.load("ur5e").chain(), np.zeros(6), error)
+
+
+@pytest.mark.parametrize(
+    "kind", dataclasses_of("poekin.sweep.measures", "monte_carlo pose_uncertainty")
+)
+def test_an_error_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)
