@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.view import shapes
 from poekin.view.meshes import mesh_nodes as module
+from poekin.view.meshes import reduce
 from poekin.view.meshes.mesh_nodes import mesh_nodes
 from poekin.view.nodes import Attachment
 from tests.view.meshes.mesh_files import FACES, TETRAHEDRON, corners, stl
@@ -127,8 +129,10 @@ def test_a_robot_of_too_many_triangles_has_fewer_and_says_how_far_off(folder, mo
     nodes, (left,) = mesh_nodes(robot_of(folder, visual('<sphere radius="1"/>') * 2))
     drawn = sum(len(node.faces) for node in nodes)
     assert 0 < drawn <= 60
-    assert left.what.endswith(f"triangles are drawn as {drawn}")
-    assert left.why.startswith("no vertex is more than ")
+    sphere = shapes.sphere()
+    *_, diagonal = reduce.reduced(sphere.vertices, sphere.faces, 60 // 2)
+    assert left.what == f"{2 * len(sphere.faces)} triangles are drawn as {drawn}"
+    assert left.why == f"no vertex is more than {1e3 * diagonal:.2g} mm off"
 
 
 def test_an_mjcf_s_meshes_are_drawn_with_the_scale_and_the_frame_of_the_asset(folder):
