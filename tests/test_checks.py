@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from poekin.checks import (
+    KERNEL_INT,
     REQUIRED,
     alternatives,
     choice,
@@ -39,15 +40,24 @@ def test_a_float_is_no_whole_number_whatever_its_value():
 
 def test_a_bound_is_refused_itself():
     assert whole(3, "n", 1, 4) == 3
-    with pytest.raises(InputError, match=r"^n: expected a whole number from 1 on, got 4$"):
-        whole(4, "n", 1, 4)
+    for value in (4, 5):
+        with pytest.raises(
+            InputError, match=f"^n: expected a whole number from 1 on, got {value}$"
+        ):
+            whole(value, "n", 1, 4)
+
+
+def test_the_kernels_can_add_two_numbers_below_their_bound_and_no_larger_ones():
+    largest = np.iinfo(np.int64).max
+    assert 2 * (KERNEL_INT - 1) <= largest < 2 * KERNEL_INT
 
 
 def test_real_numbers_and_truth_values_are_told_apart():
     for value in (1, 1.5, np.int64(2), np.float64(2.5)):
         assert is_real(value)
-        with pytest.raises(InputError, match=r"^flag: expected True or False, got "):
+        with pytest.raises(InputError, match=r"^flag: expected True or False, got ") as caught:
             true_or_false(value, "flag")
+        assert str(caught.value).endswith(f"got {value!r}")
     for value in (True, False):
         assert not is_real(value)
         true_or_false(value, "flag")
@@ -81,7 +91,7 @@ def test_a_hint_ends_the_message_of_a_word_that_was_left_out():
 
 def test_a_word_is_one_of_those_that_are_known():
     choice("b", ("a", "b"), "option")
-    for value in ("c", None, ["a"]):
+    for value in ("c", None, ["a"], np.array(["a", "b"])):
         with pytest.raises(InputError) as caught:
             choice(value, ("a", "b"), "option")
         assert str(caught.value) == f"option: expected 'a' or 'b', got {value!r}"

@@ -32,6 +32,12 @@ from poekin.errors import (  # fmt: skip
 )
 
 
+@given(st.integers(1, 100), st.integers(0, 3))
+def test_text_is_cut_exactly_where_it_is_longer_than_its_width(width, more):
+    assert escape_unprintable("x" * width, width) == "x" * width
+    assert escape_unprintable("x" * (width + 1 + more), width) == "x" * (width - 1) + "…"
+
+
 @given(st.text(), st.integers(2, 100))
 def test_nothing_that_a_terminal_obeys_is_shown(text, width):
     for plain in (escape_unprintable(text), quote(text), safe_repr(text), safe_repr([text])):
@@ -105,6 +111,7 @@ def test_a_dozen_names_are_listed_and_five_offered():
     near = [f"joint{i}" for i in range(6)]
     assert suggest("joint", near).count("'joint") == 5
     assert suggest("joint", near, 2).count("'joint") == 2
+    assert len(close_names("joint", near)) == 5
     assert suggest("joint", []) == "there are none"
     assert suggest("", ["a"]) == "available: 'a'"
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from poekin import html_page
 
 
@@ -24,6 +26,12 @@ def test_a_table_has_heads_and_rows_of_their_classes():
     )
 
 
+def test_a_row_has_a_class_for_each_cell():
+    for kinds in (["word"], ["word", "number", "word"]):
+        with pytest.raises(ValueError, match="zip"):
+            html_page.row(["a", "1"], kinds)
+
+
 def test_figures_and_folded_parts_have_their_words():
     caption = "<figcaption>x &lt; 1</figcaption>"
     assert html_page.figure("<svg/>", "x < 1") == f"<figure><svg/>{caption}</figure>"
@@ -35,3 +43,9 @@ def test_a_page_holds_its_parts_and_its_own_style_last():
     assert page.count("&lt;title&gt;") == 2
     assert "<p>1</p>\n<p>2</p>\n</body>" in page
     assert "p { color: red; }\n</style>" in page
+
+
+def test_a_title_is_cut_at_200_characters():
+    longest, longer = html_page.page("t" * 200, []), html_page.page("t" * 201, [])
+    assert longest.count(f">{'t' * 200}<") == 2
+    assert longer.count(f">{'t' * 199}…<") == 2

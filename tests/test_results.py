@@ -42,9 +42,11 @@ def test_a_result_is_its_fields_and_what_it_derives_from_them():
     whole = Whole(1.5, (Part(("a", "b")),), chain=object())
     assert whole.to_dict() == {"value": 1.5, "parts": [{"names": ["a", "b"]}], "double": 3.0}
     assert json.loads(whole.to_json()) == whole.to_dict()
-    assert "\n" in whole.to_json()
+    assert '{\n  "value": 1.5,\n  "parts": [\n    {' in whole.to_json()
+    assert '{\n "value": 1.5,' in whole.to_json(indent=1)
     assert "\n" not in whole.to_json(indent=None)
     assert str(whole) == "value 1.5"
+    assert whole._repr_html_() == "<pre>value 1.5</pre>"
 
 
 def test_a_result_in_a_result_has_what_it_derives():
@@ -71,9 +73,12 @@ def test_numbers_become_those_of_python(value, expected):
     assert type(found) is type(expected)
 
 
-def test_what_is_no_data_is_refused_by_its_kind():
-    with pytest.raises(TypeError, match="no plain data: object"):
-        plain(object())
+@pytest.mark.parametrize(
+    "value, kind", [(object(), "object"), (b"bytes", "bytes"), (Part, "type"), ({1}, "set")]
+)
+def test_what_is_no_data_is_refused_by_its_kind(value, kind):
+    with pytest.raises(TypeError, match=f"^no plain data: {kind}$"):
+        plain([value])
 
 
 def test_a_result_without_a_summary_has_none():

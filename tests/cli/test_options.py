@@ -15,7 +15,9 @@ from poekin.cli import commands, conform
 from poekin.cli.calibration import calibrate
 from poekin.cli.kinematics import ik, jacobian
 from poekin.cli.models import emit
+from poekin.cli.sweep import reach
 from poekin.formats.poses.layout import FORMATS, layout
+from poekin.sweep import Cells
 from poekin.testing.conform import LAWS
 
 DEFAULTS: dict[str, dict[str, object]] = {
@@ -105,6 +107,11 @@ def test_the_numbers_in_the_help_are_those_that_are_taken():
     assert f"default: {min(examples)} to {max(examples)}, each law its own" in help_of(
         conform, "examples"
     )
+    tiles = [Cells((0.0,) * 3, 1.0, (1, 1, 1), side).count for side in (1, 4)]
+    assert help_of(reach, "side") == (
+        f"Tell {tiles[0]} SIDE² directions of the tool's z axis apart (4: {tiles[1]} of them)."
+    )
+    assert help_of(reach, "samples") == "Number of configurations, as 10000000 or 1e8."
     assert help_of(calibrate, "folds").endswith("; 0: none.")
     assert help_of(jacobian, "frame").endswith("of joint K, counted from 0).")
     assert help_of(emit, "frame").endswith("of joint K, from 0). Default: hybrid.")

@@ -22,7 +22,9 @@ def test_every_kernel_is_compiled_and_kept(poekin):
     assert len(found) == in_the_source() > 30
     code, out, err = poekin("warm")
     assert (code, err) == (0, "")
-    assert out.startswith(f"{len(found)} kernels in ")
+    assert re.fullmatch(
+        rf"{len(found)} kernels in '{cache.usable_directory()}', \S+ MiB, \d+ s\n", out
+    )
     assert all(kernel.call == kernel.ready() for kernel in found.values())
     place = cache.usable_directory()
     assert place is not None
@@ -46,7 +48,10 @@ def test_where_nothing_is_kept_it_is_an_error(refused, tmp_path, monkeypatch):
     for k in range(in_the_source()):
         (new / f"old-{k}.kernel").write_bytes(b"")
     monkeypatch.setenv("POEKIN_CACHE_DIR", str(new))
-    assert f"'{new}' keeps 0: it cannot be written" in refused("warm")
+    words = (
+        f"error: {in_the_source()} kernels were compiled, and '{new}' keeps 0: it cannot be written"
+    )
+    assert words in refused("warm")
 
 
 def test_without_a_directory_that_can_be_used_nothing_is_compiled(refused, tmp_path, monkeypatch):

@@ -256,7 +256,7 @@ BALL = Row(kind="ball")  # pyright: ignore[reportArgumentType]
         (
             [Row(), 7],
             ShapeError,
-            r"row 1: expected a Row or a dict, as in Row\(theta, .*, got int",
+            r"row 1: expected a Row or a dict, as in Row\(theta, d, a, alpha\) \[rad, m\], got int",
         ),
         ([Row(limits=(1, 0))], InputError, "lower <= upper"),
         ([Row(name="a"), Row(name="a")], InputError, "more than once"),

@@ -16,6 +16,7 @@ from poekin.errors import InputError, ModelError, PoekinError
 from poekin.formats import dh
 from poekin.formats.dh import Row, Table, table_io
 from poekin.model.screw_rows.unit_screws import pitches_of
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 UNIT = 2.0**-53
 HALF = math.pi / 2
@@ -546,3 +547,8 @@ def test_a_line_of_too_many_or_too_few_columns_is_counted(line, got):
         ModelError, match=rf"^t.csv:2: expected 5 columns as in the header, got {got}$"
     ):
         table_io.read_text(f"convention,theta,d,a,alpha\n{line}\n", "t.csv")
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.formats.dh", "from_chain table"))
+def test_a_table_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

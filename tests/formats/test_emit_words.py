@@ -4,6 +4,8 @@ end a comment.
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -17,6 +19,7 @@ from poekin.formats.emit.messages import (
     robot_lines,
 )
 from poekin.formats.emit.statements import by_outputs
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 from .emitted import arm
 
@@ -144,3 +147,16 @@ def test_the_cheapest_frame_has_its_pose_in_the_frame_of_its_joint():
     k, T = messages.jacobian_frame(fast, 3)
     assert k == 3
     np.testing.assert_array_equal(T, np.eye(4))
+
+
+def test_a_program_of_vectors_says_what_it_allows_and_how_it_ends():
+    program = pk.emit.c(arm("one joint"), "body", name="a").selftest
+    (allowed,) = re.findall(r"#define ALLOWED (\S+)", program)
+    said = " ".join(program.partition("*/")[0].replace("\n *", " ").split())
+    assert f"allowed, which is {allowed} (1, m or m per rad), and exits with 0 if that is" in said
+    assert "if that is kept, else with 1." in said
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.formats.emit", "messages statements c"))
+def test_what_is_emitted_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

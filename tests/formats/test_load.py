@@ -210,7 +210,9 @@ def test_the_prefix_of_example_robot_data_may_be_misspelt_too(monkeypatch):
     monkeypatch.setattr(erd, "available", lambda: {"panda": "panda.urdf", "ur5": "ur5.urdf"})
     with pytest.raises(UnknownName, match=r"named 'ERD:Panda'; did you mean 'erd:panda'\? \("):
         load("ERD:Panda")
-    with pytest.raises(UnknownName, match=r"no robot 'Panda'; did you mean 'panda'\?$"):
+    with pytest.raises(
+        UnknownName, match=r"^example-robot-data has no robot 'Panda'; did you mean 'panda'\?$"
+    ):
         load("erd:Panda")
 
 

@@ -369,6 +369,14 @@ def test_an_axis_that_a_joint_does_not_have_itself_is_read_off_its_motion_subspa
                 createData=lambda: SimpleNamespace(S=np.zeros(6)),
             )
         )
+    with pytest.raises(ModelError, match=r"'RevoluteUnboundedUnaligned' joint of multiplier 0$"):
+        from_object(
+            stand_in(
+                "JointModelRevoluteUnboundedUnaligned",
+                createData=lambda: SimpleNamespace(S=np.zeros(6)),
+                scaling=0.0,
+            )
+        )
 
 
 def test_frames_and_joints_of_one_name_get_names_of_their_own():
@@ -418,6 +426,13 @@ def test_a_placement_that_is_no_pose_is_refused_with_its_frame():
     with pytest.raises(
         PoseError, match=rf"^placement of frame '{model.frames[2].name}' is no pose: "
     ):
+        from_object(model)
+
+
+def test_a_joint_s_placement_that_is_no_pose_is_refused_with_its_joint():
+    model = stand_in()
+    model.jointPlacements[1] = np.eye(4) * 2
+    with pytest.raises(PoseError, match=r"^placement of joint 'j' is no pose: "):
         from_object(model)
 
 

@@ -230,12 +230,13 @@ def test_an_ets_of_the_toolbox_moves_as_it_says(sequence, seed):
 
 def test_coordinates_of_an_ets_are_in_the_order_of_jindex_and_shared_ones_have_what_is_left_of_their_limits():
     chain = from_object(
-        [et("Rz", jindex=4, qlim=[-2, 1]), et("tx", jindex=1), et("Rz", jindex=4, qlim=[-1, 3])]
-    )
-    assert chain.q_names == ("q1", "q4")
-    assert chain.limits.tolist() == [[-math.inf, math.inf], [-1, 1]]
-    assert chain.coupling.tolist() == [[0, 1], [1, 0], [0, 1]]
-    assert chain.kinds == ("revolute", "prismatic", "revolute")
+        [et("Rz", jindex=4, qlim=[-2, 1]), et("tx", jindex=1, qlim=[-0.5, 0.5]),
+         et("Rz", jindex=4, qlim=[-1, 3]), et("ty", jindex=7)]
+    )  # fmt: skip
+    assert chain.q_names == ("q1", "q4", "q7")
+    assert chain.limits.tolist() == [[-0.5, 0.5], [-1, 1], [-math.inf, math.inf]]
+    assert chain.coupling.tolist() == [[0, 1, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    assert chain.kinds == ("revolute", "prismatic", "revolute", "prismatic")
 
 
 def test_a_joint_far_along_its_axis_is_revolute():

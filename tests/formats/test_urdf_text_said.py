@@ -123,7 +123,7 @@ REFUSED = {
     ),
     "a link that XML cannot hold": (
         Robot("r", ["a\0"], []),
-        r"link 'a\\x00': XML cannot hold the character U\+0000",
+        r"link 'a\\x00': XML cannot hold the character U\+0000 of its name$",
     ),
     "a robot that XML cannot hold": (Robot("r\ufffe", ["a"], []), r"robot 'r\\ufffe': .*U\+FFFE"),
     "a joint that XML cannot hold": (

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError, PoseError, ShapeError
 from poekin.sweep import Cells
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 
 def centre(face, i, j, n):
@@ -144,10 +145,22 @@ def test_a_batch_of_poses_keeps_its_shape():
     ("call", "error", "words"),
     [
         (lambda: Cells.box([0, 0, 0], [1, 1, 1], 0.0), InputError, "resolution"),
-        (lambda: Cells.box([0, 0, 0], [1, 0, 1], 0.1), InputError, "lower below upper"),
-        (lambda: Cells.box([0, 0], [1, 1, 1], 0.1), ShapeError, "lower: expected three"),
+        (
+            lambda: Cells.box([0, 0, 0], [1, 0, 1], 0.1),
+            InputError,
+            r"^box: expected lower below upper, got \[0\. 0\. 0\.\] and \[1\. 0\. 1\.\]$",
+        ),
+        (
+            lambda: Cells.box([0, 0], [1, 1, 1], 0.1),
+            ShapeError,
+            r"^lower: expected three finite numbers, m, got \[0, 0\]$",
+        ),
         (lambda: Cells.box([0, 0, 0], [1, np.nan, 1], 0.1), ShapeError, "upper"),
-        (lambda: Cells.box([0, 0, 0], [1, 1, 1], 1e-5), InputError, "at most 2"),
+        (
+            lambda: Cells.box([0, 0, 0], [1, 1, 1], 1e-5),
+            InputError,
+            r"^resolution: expected at most 2\^40 cells, got 1e\+15, 100000 x 100000 x 100000 cubes of 1$",
+        ),
         (lambda: Cells.box([0, 0, 0], [1, 1, 1], 0.1, side=-1), InputError, "side"),
         (lambda: ONE.find(2 * np.eye(4)), PoseError, "T"),
         (lambda: ONE.find(np.eye(3)), ShapeError, "T"),
@@ -161,3 +174,8 @@ def test_what_is_no_box_and_no_pose_is_refused(call, error, words):
 
 def test_the_public_name_is_this_one():
     assert pk.sweep.Cells is Cells
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.sweep", "cells"))
+def test_a_box_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

@@ -6,6 +6,9 @@ What is missing would be read as zeros, and be no choice at all.
 from __future__ import annotations
 
 import math
+import re
+import runpy
+import sys
 from collections import defaultdict
 from collections.abc import Callable
 from typing import Any
@@ -13,6 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from poekin.errors import MissingExtra
 from poekin.model.chain import Chain
 from poekin.testing.strategies import (
     chain_strategies,
@@ -229,3 +233,12 @@ def test_vectors_and_rotations_are_an_axis_and_a_size():
 def test_the_floats_beside_a_number():
     assert decoders.around(1.0) == (1.0, 1 - 2.0**-53, 1 + 2.0**-52)
     assert decoders.around(0.0) == (0.0, -5e-324, 5e-324)
+
+
+def test_without_hypothesis_the_extra_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "hypothesis", None)
+    message = (
+        "poekin.testing.strategies needs the package hypothesis: pip install 'poekin[testing]'"
+    )
+    with pytest.raises(MissingExtra, match=f"^{re.escape(message)}$"):
+        runpy.run_path(arrays.__file__)

@@ -196,6 +196,13 @@ def test_no_name_comes_into_the_text():
     assert all(text.isascii() and "</" not in text and "<!--" not in text for text in texts)
 
 
+def test_a_module_says_what_it_exports():
+    model = with_name("a")
+    text = kinematics(model, page_tips(model))
+    assert "links(q): poses of the links in the base frame, 4 x 4 row by row, one after" in text
+    assert "tips[k].fk_jacobian(q): pose T of a tip and its hybrid Jacobian J" in text
+
+
 def test_a_tip_stands_for_all_that_are_fixed_to_its_body():
     assert default_tips(load("ur5e")) == ("tool0",)
     assert default_tips(load("panda")) == ("panda_hand", "panda_leftfinger", "panda_rightfinger")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import dataclasses
 import json
 import re
 import sys
@@ -164,10 +165,26 @@ def test_a_notebook_shows_the_page_in_a_frame_that_it_cannot_leave(made):
     assert (tag, others) == ("iframe", [])
     assert attributes["srcdoc"] == made.html
     assert attributes["sandbox"] == "allow-scripts"
+    assert attributes["style"] == "width:100%;height:640px;border:0"
+
+
+def test_a_page_is_as_wide_as_the_screen_that_it_is_on(made):
+    found = Elements(made.html).found
+    (content,) = [words["content"] for tag, words in found if words.get("name") == "viewport"]
+    assert content == "width=device-width, initial-scale=1"
 
 
 def test_a_page_says_what_it_is_in_one_line(made):
     assert re.fullmatch(r"<Page 'sliding arm', 1\.\d MB>", repr(made))
+
+
+def test_each_arm_s_functions_have_its_number():
+    scene = sliding_arm.scene()
+    twice = dataclasses.replace(scene, arms=(*scene.arms, *scene.arms))
+    numbers = re.findall(
+        r"window\.poekinKinematics\[(\d+)\] = \{ links, tips \};", page(twice).html
+    )
+    assert numbers == ["0", "1"]
 
 
 def test_without_k3d_the_extra_is_named(monkeypatch):

@@ -97,7 +97,10 @@ def test_a_result_that_was_made_by_hand_says_that_it_lacks_its_chain():
     from dataclasses import replace
 
     for found in (pk.ik(ARM, T), KINDS["ik_all"]()):
-        with pytest.raises(InputError, match="expected one that ik or ik_all returned"):
+        with pytest.raises(
+            InputError,
+            match=r"^view: (Solution|AllSolutions): expected one that ik or ik_all returned, with its chain$",
+        ):
             pk.view(replace(found, chain=None))
 
 

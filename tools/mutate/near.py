@@ -41,6 +41,7 @@ _SLOW_LEAVES = (  # left for the end
 _SLOW = "formats/dh::test_every_chain_of_the_real_robots_has_a_table"  # left for the end
 
 NEAR = {
+    "__init__": "model/peer_names errors",
     "algebra": f"algebra formulas/forward formulas/recursive formulas/columns {_KINDS} {GROUPS} {CHAINS}",
     "formulas/": f"own {_KINDS} {CHAINS} {GROUPS}",
     "formulas/arctangent formulas/coefficients formulas/quaternion": f"own {_ANGLES}",
@@ -115,6 +116,10 @@ NEAR = {
     "engine/samples": "own sweep/samples sweep/sobol",
     "engine/tiles": "own sweep/cells sweep/tile_centres",
     "view/view": "own",
+    "cli/fk": "own cli/units cli/poses",
+    "cli/show": "cli/reach cli/options",
+    "cli/model": "own cli/coupling cli/vendor_files cli/from_ros cli/options",
+    "cli/poses": "own cli/options cli/ik cli/units",
     "cli/draw": "own cli/compare",
     "cli/view": "own",
     "engine/tree": "own model/link_program",

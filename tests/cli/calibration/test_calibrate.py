@@ -479,6 +479,10 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(
             "--sigma-angle and --sigma-length: of measured poses, both expected or neither",
         ),
         (
+            ["--sigma-length", "1e-3"],
+            "--sigma-angle and --sigma-length: of measured poses, both expected or neither",
+        ),
+        (
             ["--sigma-angle", "-1", "--sigma-length", "1"],
             "--sigma-angle: expected a positive number, got -1.0",
         ),
@@ -559,3 +563,12 @@ def test_two_files_of_one_kind_are_one_text_and_its_warnings_are_said_once(tmp_p
     assert len(set(said)) == len(said)
     for ending in ("urdf", "csv"):
         assert (tmp_path / f"a.{ending}").read_bytes() == (tmp_path / f"b.{ending}").read_bytes()
+
+
+def test_an_option_is_said_where_a_keyword_would_be():
+    assert command._as_options(
+        "the lengths look like millimetres: give metres (divide by 1000)"
+    ) == (
+        "the lengths look like millimetres: give metres"
+        " (divide by 1000, or --mm, which is of sliding joints too)"
+    )

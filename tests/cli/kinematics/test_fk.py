@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from poekin.formats.load import load
+from tests.findings import dataclasses_of
 
 
 @pytest.fixture
@@ -337,8 +338,14 @@ def test_a_bad_command_line_is_one_message(crane, refused, words, message):
 
 def test_the_frame_of_a_jacobian_has_no_default(crane, refused):
     assert "--frame" in refused("jacobian", crane, "--tip", "hook", 0, 0)
-    for frame in ("tool", "1_0", "\u0661", "9" * 5000):
-        assert "space, body, hybrid or the number of a joint (from 0)" in refused(
+    expected = "--frame: space, body, hybrid or the number of a joint (from 0) expected, got"
+    for frame, got in (
+        ("tool", "'tool'"),
+        ("1_0", "'1_0'"),
+        ("\u0661", "'\u0661'"),
+        ("9" * 5000, "'9"),
+    ):
+        assert f"{expected} {got}" in refused(
             "jacobian", crane, "--tip", "hook", "--frame", frame, 0, 0
         )
 
@@ -360,3 +367,8 @@ def test_a_directory_or_a_text_that_is_no_text_is_refused(crane, refused, tmp_pa
     assert "Is a directory" in refused("fk", crane, "--tip", "hook", "--input", tmp_path)
     (tmp_path / "q.csv").write_bytes(b"\xff\xfe\x00")
     assert "not UTF-8" in refused("fk", crane, "--tip", "hook", "--input", tmp_path / "q.csv")
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.cli.kinematics", "arm fk"))
+def test_neither_arguments_nor_results_are_changed_on_the_way(kind):
+    assert kind.__dataclass_params__.frozen

@@ -178,7 +178,8 @@ def test_of_very_many_reasons_the_first_are_told(poekin, tmp_path):
     code, _, err = poekin(*PANDA, "--input", tmp_path / "T.csv", "--format", 12)
     assert code == 1
     assert len(err.splitlines()) == 21
-    assert "and 10 more poses" in err
+    assert err.splitlines()[19].startswith("poekin: pose 19: unreachable: ")
+    assert err.splitlines()[20] == "poekin: and 10 more poses; --json tells of each"
 
 
 def test_an_empty_file_is_an_empty_batch(poekin, tmp_path):

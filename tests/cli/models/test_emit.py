@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from pathlib import Path
 
 import numpy as np
@@ -58,6 +59,17 @@ def test_directories_are_made_and_the_head_says_the_file_and_its_checksum(poekin
     said = f"from the robot crane, file crane.urdf with the SHA-256 {digest}"
     assert f"Made by poekin {pk.__version__} {said}" in head
     assert str(tmp_path) not in head
+
+
+def test_a_robot_s_name_takes_80_characters_of_the_head(poekin, tmp_path):
+    for length in (80, 81):
+        file = tmp_path / "arm.urdf"
+        robot = pk.Robot("x" * length, ["a", "b"], [pk.Joint("j", "revolute", "a", "b")])
+        file.write_text(pk.to_urdf(robot), encoding="utf-8")
+        words = ("emit", file, "--lang", "python", "--name", "arm", "--output", tmp_path, "--force")
+        assert poekin(*words)[0] == 0
+        text = (tmp_path / "arm.py").read_text(encoding="ascii")
+        assert re.search(r"from the robot\s+(x+), file arm", text)[1] == "x" * 80
 
 
 def test_the_idealised_arm_is_written_and_what_that_changed_is_said(poekin, tmp_path):
@@ -175,7 +187,7 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
         (("--lang", "c", "--frame", ""), "--frame: space, body, hybrid, cheapest or the number"),
         (
             ("--lang", "c", "--frame", "world"),
-            "--frame: space, body, hybrid, cheapest or the number of a joint",
+            "--frame: space, body, hybrid, cheapest or the number of a joint (from 0) expected, got 'world'",
         ),
         (("--lang", "c", "--frame", "7"), "0 to 6, got 7"),
         (("--lang", "c", "--frame", "-1"), "0 to 6, got -1"),

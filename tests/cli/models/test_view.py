@@ -120,7 +120,10 @@ def test_it_is_opened_where_that_is_asked(poekin, crane, here, monkeypatch):
         (["--tip", "hook", "--q", "1,x"], "a number expected, got 'x'"),
         (["--tip", "nothing"], "nothing"),
         (["--tip", "hook", "--path", "a.csv", "--pose", "1"], "--path and --pose: expected one"),
-        (["--tip", "hook", "--path", "a.csv", "--q", "1,2"], "--q: expected without --path"),
+        (
+            ["--tip", "hook", "--path", "a.csv", "--q", "1,2"],
+            "--q: expected without --path, which says where the arm is",
+        ),
         (["--tip", "hook", "--path", "no.csv"], "no.csv"),
         (["--format", "rpy"], "expected together with --pose"),
         (["--tip", "hook", "--pose", "1 2 3"], "--format: expected one of"),

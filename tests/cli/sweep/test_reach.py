@@ -21,7 +21,7 @@ def test_a_map_is_made_written_and_shown(tmp_path, poekin):
     code, out, _ = poekin("sweep", "reach", "ur5e", *FEW, "--side", "1", "--output", str(place))
     own = pk.sweep.reach(pk.load("ur5e").chain(tip="tool0"), samples=20_000, resolution=0.2, side=1)
     assert code == 0
-    assert out.startswith(own.summary())
+    assert out == f"{own.summary()}\n\nthe map: '{place}'\n"
     read = load_map(place)
     np.testing.assert_array_equal(read.counts, own.counts)
     code, out, _ = poekin("sweep", "show", str(place))

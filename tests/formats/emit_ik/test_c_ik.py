@@ -289,6 +289,24 @@ def test_its_own_test_fails_where_one_digit_of_the_arm_is_wrong(build_once):
     assert (code, said.split()[-1]) == (0, "passed")
 
 
+def test_angles_are_alike_after_whole_turns_and_lengths_are_not():
+    screws = [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 0, 1]]
+    source = emit.c_ik(pk.Chain.from_space(screws, np.eye(4)), name="lift")
+    tables = re.findall(r"lift_ik_sizes\[4\] = \{(.*?)\}", source.source, re.DOTALL)
+    tables += re.findall(r"PERIODS\[2\] = \{(.*?)\}", source.selftest)
+    assert [[float(x) for x in table.split(",")[:2]] for table in tables] == [[2 * np.pi, 0.0]] * 2
+
+
+def test_its_comments_say_what_goes_in_what_comes_out_and_of_which_form_it_is():
+    source = emitted("ur5e")
+    assert "ur5e_ik: from T[16] = (R, p; 0, 1), row by row, the pose of the tip" in source.header
+    family = closed_arm(pk.load("ur5e").chain()).family
+    assert f"In closed form: {family}. Each solution is held against" in source.header
+    told = " ".join(source.selftest.replace(" *", " ").split())
+    assert "exits with 0 if that is kept and each target" in told
+    assert "A whole turn of each coordinate that is an angle, 0 of a length." in told
+
+
 def test_it_needs_math_h_alone_and_no_memory():
     source = emitted("irb140")
     assert re.findall(r"#include (.*)", source.source) == ['"irb140_ik.h"', "<math.h>"]
@@ -322,13 +340,28 @@ def test_a_hostile_name_stays_in_its_comment(build_once):
 
 def test_an_arm_without_closed_form_is_refused_with_the_reason():
     general = calibrated(pk.load("ur5e").chain(), np.random.default_rng(2), 0.1, 0.1)
-    with pytest.raises(InputError, match="has no closed form that is known here: no three neigh"):
+    with pytest.raises(
+        InputError,
+        match=r"^emit: 'base' -> 'tool' has no closed form that is known here: no three neigh",
+    ):
         emit.c_ik(general)
-    with pytest.raises(InputError, match="expected an arm of one to six joints for its inverse"):
+    with pytest.raises(
+        InputError,
+        match=r"six joints for its inverse kinematics, 'panda_link0' -> 'panda_hand' has 7 coordinates$",
+    ):
         emit.c_ik(pk.load("panda").chain(tip="panda_hand"))
     screw = pk.load("ur5e").chain().screws[0] + [0, 0, 0, 0, 0, 0.1]
     helical = pk.Chain.from_space([screw], np.eye(4))
-    with pytest.raises(InputError, match=r"revolute and prismatic joints only .* is helical"):
+    with pytest.raises(
+        InputError, match=r"revolute and prismatic joints only .*, 'joint1' is helical$"
+    ):
         emit.c_ik(helical)
+    both = pk.Chain.from_space(pk.load("ur5e").chain().screws[:2], np.eye(4), coupling=[[1], [1]])
+    with pytest.raises(InputError) as caught:
+        emit.c_ik(both)
+    assert str(caught.value) == (
+        "emit: expected one coordinate a joint for the inverse kinematics, the 2 joints of"
+        " 'base' -> 'tool' are coupled to 1 coordinates"
+    )
     with pytest.raises(InputError, match=r"^name: expected a text, got None$"):
         emit.c_ik(pk.load("ur5e").chain(), name=None)  # type: ignore[arg-type]

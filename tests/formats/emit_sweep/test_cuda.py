@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 
 import numpy as np
@@ -130,6 +131,24 @@ def test_in_single_precision_samples_near_a_border_alone_fall_elsewhere(tmp_path
     # a determinant that is 0 but for rounding has the root of that
     allowed = 8 * np.sqrt(ROUNDOFF["float32"]) * chain.reach**3
     np.testing.assert_allclose(best[same], wanted.reshape(-1)[same], rtol=0, atol=allowed)
+
+
+def test_its_comment_names_the_arguments_of_the_kernels_that_it_has():
+    chain = arm("one slide")
+    for measure, best in (("reach", ""), ("manipulability", ", best")):
+        text = emit.cuda(chain, "body", name="a", measure=measure)
+        assert (
+            f"a_sweep(first, last, samples, bounds, cells, place, counts, outside{best}):" in text
+        )
+        assert ("a_attained(" in text.partition("*/")[0]) == bool(best)
+        assert "first ... last - 1 of a map" in text
+        assert "and to outside[0]." in text
+    for frame, called in (("body", "body"), (0, "joint0")):
+        assert f"a_fk_jacobian_{called}_batch(count, q, T, J)" in emit.cuda(chain, frame, name="a")
+    single = emit.cuda(chain, "body", precision="float32")
+    assert "random numbers are whole numbers of 64 bits" in single
+    digits = np.finfo(np.float32).nmant + 1
+    assert re.search(rf"all else is rounded to {digits}[\n *]+bits", single)
 
 
 @pytest.mark.parametrize("name", HOSTILE)

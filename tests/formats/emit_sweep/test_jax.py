@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
+import re
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -72,6 +77,38 @@ def test_samples_of_another_kind_are_refused():
     functions = by_numpy(emit.jax(arm("panda"), "body"))
     with pytest.raises(ValueError, match=r"^samples: expected those of pk\.sweep\.Random or Grid$"):
         functions["configurations"](np.arange(3), (2, 0), np.zeros((2, 7)))
+
+
+@pytest.mark.parametrize("measure, more", [("reach", 0), ("manipulability", 2)])
+def test_its_docstring_says_how_the_sweep_is_called_and_compiled(measure, more):
+    text = emit.jax(arm("one slide"), "body", measure=measure)
+    said = ast.get_docstring(ast.parse(text)) or ""
+    functions = by_numpy(text)
+    parameters = list(inspect.signature(functions["sweep"]).parameters)
+    assert parameters[7:] == ["best", "attained"][:more]
+    assert f"  sweep({', '.join(parameters)}): " in said
+    (static,) = re.findall(r"static_argnums=\(([\d, ]+)\)", said)
+    assert [parameters[int(k)] for k in static.split(",")] == ["count", "samples", "cells"]
+    assert "with 64-bit numbers on" in said
+    assert "counts, int64, has cells.count + 1 zeros before" in said
+    assert (
+        ("attained, 2**63 - 1 before" in said) == (functions.get("NONE") == 2**63 - 1) == (more > 0)
+    )
+    assert "at y = 0 say" in said
+    assert "first ... first + count - 1 added" in functions["sweep"].__doc__
+    assert functions["cells_of"].__doc__ == "Cells (...) of poses T (..., 4, 4); -1 outside."
+    assert functions["configurations"].__doc__ == (
+        "q (N, 1) of samples by their numbers (N,), 64-bit integers."
+    )
+
+
+def test_without_numbers_of_64_bits_no_sample_is_drawn():
+    functions = by_numpy(emit.jax(arm("one slide"), "body"))
+    functions["xp"] = SimpleNamespace(zeros=np.zeros, uint64=np.uint32)
+    with pytest.raises(RuntimeError) as caught:
+        functions["configurations"](np.arange(3), (0, 0), np.zeros((2, 1)))
+    switch = 'jax.config.update("jax_enable_x64", True)'
+    assert str(caught.value) == f"numbers have 32 bits: {switch} before"
 
 
 @pytest.mark.parametrize("name", HOSTILE)

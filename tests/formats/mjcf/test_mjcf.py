@@ -209,6 +209,13 @@ def test_names_kinds_and_limits_are_those_of_the_file():
     assert robot.limits.tolist() == [[-np.pi / 2, np.pi / 2], [-np.inf, np.inf], [-np.inf, np.inf]]
 
 
+def test_joints_of_one_body_without_names_are_counted_from_1():
+    joints = "".join(f'<joint type="slide" axis="{axis}"/>' for axis in ("1 0 0", "0 1 0", "0 0 1"))
+    before = f'<body name="a">{G}<joint/></body>'
+    robot, _ = read(model_of(f'{before}<body name="b">{G}{joints}</body>'))
+    assert robot.q_names == ("a_joint", "b_joint1", "b_joint2", "b_joint3")
+
+
 DRIVE = 'damping="0.5" frictionloss="0.25"'
 
 
@@ -275,15 +282,15 @@ def test_linear_equalities_hold_in_mujoco_where_poekin_puts_the_joints():
     [
         (
             '<joint joint1="x" joint2="y" polycoef="0 1 1 0 0"/>',
-            "joints whose polynomial is not linear: 'x'",
+            "equalities are left out for joints whose polynomial is not linear: 'x'",
         ),
         (
             '<joint joint1="x" joint2="y"/><joint joint1="y" joint2="x"/>',
-            "that follow each other in a circle: 'y'",
+            "equalities are left out for joints that follow each other in a circle: 'y'",
         ),
         (
             '<joint joint1="x" joint2="y"/><joint joint1="x"/>',
-            "of which there is an earlier equality: 'x'",
+            "equalities are left out for joints of which there is an earlier equality: 'x'",
         ),
         (
             '<weld name="w" body1="a" body2="b"/>',
@@ -310,7 +317,10 @@ def test_mocap_bodies_and_what_hangs_on_them_are_left_out_and_balls_named():
     assert robot.links == ("world", "a")
     assert [j.kind for j in robot.joints] == ["floating"]
     assert len(said) == 2
-    assert "'b'" in said[0]
+    assert said[0] == (
+        "m.xml: ball joints are floating ones here, which no chain can cross: 'b'; Robot.fk takes"
+        " the rotation of each as a pose"
+    )
     assert said[1].endswith(
         "mocap bodies are left out, with all that hangs on them: 'target', 'other'"
     )

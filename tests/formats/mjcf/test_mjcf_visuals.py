@@ -122,15 +122,16 @@ def test_what_mujoco_s_viewer_hides_or_contacts_alone_need_is_not_drawn(geoms, d
 @pytest.mark.parametrize(
     ("geom", "asset", "why"),
     [
-        ('<geom type="plane" size="1 1 1"/>', "", "type plane are not drawn"),
-        ('<geom type="capsule" mesh="plain"/>', ASSETS, "fitted to a mesh"),
-        ('<geom type="mesh" mesh="p"/>', '<mesh name="p" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/>', "with faces"),
+        ('<geom type="plane" size="1 1 1"/>', "", "geoms of the type plane are not drawn"),
+        ('<geom type="capsule" mesh="plain"/>', ASSETS, "a shape that is fitted to a mesh"),
+        ('<geom type="mesh" mesh="p"/>', '<mesh name="p" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/>',
+         "mesh 'p' has neither a file nor vertices with faces"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_drawn_is_left_out_with_its_line(geom, asset, why):
     found, (left,) = looks(geom.replace("<geom", "<geom "), asset)
     assert found == ()
-    assert why in left.why
+    assert left.why == why
     assert left.link == "b"
     assert left.place == f"m.xml:{2 + asset.count(chr(10))}"
 

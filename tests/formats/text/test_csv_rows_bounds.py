@@ -46,7 +46,7 @@ def test_a_device_without_an_end_is_no_csv(zeros):
 def test_a_device_without_an_end_is_no_array(zeros, monkeypatch):
     monkeypatch.setattr(csv_rows, "MOST", 4096)
     with pytest.raises(
-        FileError, match="at most 4096 bytes expected from a pipe; a file may be larger"
+        FileError, match=r": at most 4096 bytes expected from a pipe; a file may be larger$"
     ):
         array_files.read_configurations(
             str(zeros), csv_rows.Columns(("a",), "coordinate"), lambda done, total: None

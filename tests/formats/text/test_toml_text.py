@@ -4,9 +4,11 @@ is.
 
 from __future__ import annotations
 
+import sys
+
 import pytest
 
-from poekin.errors import FileError, ModelError
+from poekin.errors import FileError, MissingExtra, ModelError
 from poekin.formats.dh import table_io
 from poekin.formats.text import toml_text
 
@@ -163,3 +165,10 @@ def test_a_column_that_is_there_thousands_of_times_is_said_once():
         ModelError, match=r"^t\.csv:1: theta: it appears 20000 times, expected once$"
     ):
         table_io.read_text(",".join(["theta"] * 20_000), "t.csv")
+
+
+def test_without_tomli_w_the_extra_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "tomli_w", None)
+    message = r"^writing TOML needs the package tomli-w: pip install 'poekin\[formats\]'$"
+    with pytest.raises(MissingExtra, match=message):
+        toml_text.make_text({})

@@ -74,8 +74,13 @@ def test_faults_behind_a_slip_keep_their_lines():
     ],
 )
 def test_a_slip_hides_no_fault(text):
-    with pytest.raises(ModelError, match="malformed XML"):
+    with pytest.raises(ModelError, match=r"^f:\d: malformed XML: "):
         xml.parse(text, "f")
+
+
+def test_binary_data_are_called_so():
+    with pytest.raises(ModelError, match=r"^f:1: malformed XML \(binary data\?\): '"):
+        xml.parse(b"<robot\0", "f")
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ import pytest
 from poekin.errors import InputError, PoekinError, PoseError, ShapeError
 from poekin.formats.vendors import FactoryCalibration
 from poekin.formats.vendors.naming import flexiv, ufactory
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.messages import says
 
 SIX = np.eye(4)[None].repeat(6, 0)
@@ -92,3 +93,8 @@ def test_an_axis_may_be_off_unit_length_by_rounding():
     FactoryCalibration(SIX, axes=np.array([*Y[:5], [0, 1 + 9e-10, 0]]))
     with pytest.raises(InputError):
         FactoryCalibration(SIX, axes=np.array([*Y[:5], [0, 1 + 2e-9, 0]]))
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.formats.vendors", "naming calibration"))
+def test_a_calibration_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

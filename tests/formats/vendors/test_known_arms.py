@@ -12,6 +12,7 @@ from poekin.formats.vendors.deviations import origins
 from poekin.formats.vendors.known_arms import best_fit, known_arms
 from poekin.formats.vendors.yaml_io import read_text
 from tests.formats.vendors.origins import (
+    FLEXIV,
     RIZON_4S,
     RIZON_AXES,
     UFACTORY,
@@ -23,6 +24,10 @@ from tests.formats.vendors.origins import (
 ARMS = [arm for n in (5, 6, 7) for arm in known_arms(n)]
 
 
+def named(name):
+    return next(arm for arm in ARMS if arm.name == name)
+
+
 def test_every_arm_has_the_joints_that_it_is_listed_with():
     assert {n: len(known_arms(n)) for n in (4, 5, 6, 7)} == {4: 0, 5: 1, 6: 10, 7: 7}
     assert len({arm.name for arm in ARMS}) == len(ARMS)
@@ -30,10 +35,18 @@ def test_every_arm_has_the_joints_that_it_is_listed_with():
 
 @pytest.mark.parametrize("name", UFACTORY)
 def test_ufactory_s_numbers_are_those_of_its_files(name):
-    mine = next(arm for arm in ARMS if arm.name == name)
+    mine = named(name)
     theirs = read_text(yaml(UFACTORY[name]))
     # three turns of 1.5708 or 3.1416, which are 4e-6 and 7e-6 rad off
     np.testing.assert_allclose(mine.calibration.poses, theirs.poses, rtol=0, atol=2e-5)
+
+
+@pytest.mark.parametrize("name", FLEXIV)
+def test_flexiv_s_numbers_are_those_of_its_files(name):
+    arm = named(name)
+    theirs = read_text(yaml(FLEXIV[name]), vendor="Flexiv")
+    # three half turns of 3.141592654
+    np.testing.assert_allclose(arm.calibration.poses, theirs.poses, rtol=0, atol=2e-9)
 
 
 PAIRS = [
@@ -56,10 +69,6 @@ def test_no_arm_fits_another_before_its_own(a, b):
 def test_the_places_of_joints_are_the_origins_of_the_links_that_they_move(arm):
     robot = arm.calibration.to_robot()
     np.testing.assert_allclose(arm.places, origins(robot, robot.chain()), rtol=0, atol=1e-15)
-
-
-def named(name):
-    return next(arm for arm in ARMS if arm.name == name)
 
 
 @pytest.mark.parametrize("name", ["Rizon4 or 4s", "Rizon10 or 10s"])

@@ -125,10 +125,15 @@ FAULTY = {
     visual(""): "expected one of mesh, box, .*, got none",
     visual("<teapot/>"): "expected one of mesh, box, .*, got 'teapot'",
     visual('<box size="1 2"/>'): "size must be three numbers, got 2",
-    visual('<box size="1 2 -3"/>'): "expected positive lengths in size",
+    visual(
+        '<box size="1 2 -3"/>'
+    ): r"expected positive lengths in size, got \(1\.0, 2\.0, -3\.0\)$",
     visual("<box/>"): "expected positive lengths in size",
     visual('<cylinder radius="x" length="1"/>'): "radius must be a finite number",
     visual("<sphere/>"): "expected positive lengths in radius",
+    visual(
+        '<cylinder radius="0" length="-1"/>'
+    ): r"expected positive lengths in radius and length, got \(0\.0, -1\.0\)$",
     visual('<mesh scale="1 1 1"/>'): "expected an attribute filename",
     visual('<mesh filename="a" scale="1 0 1"/>'): "scale must not be zero",
     visual(BALL, '<origin xyz="1 2"/>'): "xyz must be three numbers",

@@ -8,6 +8,7 @@ import pytest
 import poekin as pk
 from poekin.errors import PoseError, ShapeError
 from poekin.sweep import Cells, Random, Sweep, base_placement, run
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 ARM = pk.load("ur5e").chain(tip="tool0")
 CELLS = Cells.box([-1.1] * 3, [1.1] * 3, 0.1, side=1)
@@ -65,3 +66,8 @@ MANY = r"^T_{}: expected poses \(N, 4, 4\), N from 1 on, got {}$"
 def test_what_are_no_poses_is_refused(targets, bases, error, words):
     with pytest.raises(error, match=words):
         base_placement(MAP, targets, bases)
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.sweep.maps", "base_placement"))
+def test_a_ranking_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError
 from poekin.sweep import Grid, JointTravel, Random, Sobol, histogram
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import slide, two_links
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -93,7 +95,11 @@ def test_the_summary_names_measure_and_quantiles():
         ("reach", {}, "measure: expected a measure to keep, got 'reach'"),
         ("travel", {"bins": 0}, "bins: expected a whole number from 1"),
         ("travel", {"bins": 2**24}, "bins"),
-        ("travel", {"ends": (1.0, 1.0)}, "ends: expected two numbers, the smaller one first"),
+        (
+            "travel",
+            {"ends": (1.0, 1.0)},
+            r"^ends: expected two numbers, the smaller one first, got \(1\.0, 1\.0\)$",
+        ),
         ("travel", {"ends": (0.0, math.inf)}, "ends: expected two numbers"),
         ("travel", {"ends": (math.nan, 1.0)}, "ends: expected two numbers"),
         ("travel", {"samples": 0}, "count: expected a whole number"),
@@ -103,3 +109,26 @@ def test_the_summary_names_measure_and_quantiles():
 def test_what_cannot_be_counted_is_refused(measure, options, words):
     with pytest.raises(InputError, match=words):
         histogram(ARM, measure, **{"samples": 100} | options)
+
+
+def test_its_summary_says_below_which_value_a_share_of_the_configurations_is():
+    found = histogram(two_links(), "manipulability", bins=100, ends=(0.0, 1.0), samples=2000)
+    first, second = found.summary().split("\n")
+    assert first == f"{found.counts.sum()} configurations, {found.outside} more outside of the bins"
+    said = re.fullmatch(
+        r"manipulability.*: 5 % below (.*), half below (.*), 95 % below (.*)", second
+    )
+    assert said is not None
+    for text, share in zip(said.groups(), (0.05, 0.5, 0.95), strict=True):
+        edge = round(100 * float(text.split()[0]))
+        # the first of the edges below which there are as many
+        assert (
+            found.counts[:edge].sum() >= share * found.counts.sum() > found.counts[: edge - 1].sum()
+        )
+    empty = histogram(two_links(), "manipulability", bins=1, ends=(8.0, 9.0), samples=10)
+    assert empty.summary() == "0 configurations, 10 more outside of the bins"
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.sweep.maps", "histogram"))
+def test_a_histogram_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

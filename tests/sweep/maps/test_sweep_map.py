@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
@@ -10,6 +10,9 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError, UnknownName
 from poekin.sweep import Cells, Grid, Random, Sweep, run
+from poekin.sweep.bins import TopList
+from poekin.sweep.maps.sweep_map import map_of
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import measured, two_links
 
 ARM = two_links()
@@ -40,9 +43,9 @@ def test_a_layer_is_that_of_the_place():
     np.testing.assert_array_equal(MEASURED.slice("z", 0.05), MEASURED.counts[:, :, 10])
     np.testing.assert_array_equal(MEASURED.slice("x", -0.95), MEASURED.counts[0])
     assert COUNTED.slice("y", 0.31).shape == (20, 20)
-    with pytest.raises(UnknownName, match="'x', 'y' or 'z'"):
+    with pytest.raises(UnknownName, match=r"^axis: expected 'x', 'y' or 'z', got 'w'$"):
         MEASURED.slice("w", 0.0)
-    with pytest.raises(InputError, match=r"expected y within -1 \.\.\. 1 m"):
+    with pytest.raises(InputError, match=r"^at: expected y within -1 \.\.\. 1 m, got 1\.5$"):
         MEASURED.slice("y", 1.5)
 
 
@@ -74,7 +77,9 @@ def test_the_summary_says_volume_directions_and_measure():
     assert lines[0] == "5000 configurations, 0 of them outside the map"
     volume = np.count_nonzero(MEASURED.reached) * 1e-3
     assert lines[1] == f"{volume:.4g} m³ of 8 m³ reached, in cubes of 100 mm"
-    assert lines[2].startswith("of 12 directions of the tool 8.33 % in the mean")
+    assert lines[2] == (
+        "of 12 directions of the tool 8.33 % in the mean of these cubes, 8.33 % in the best"
+    )
     best = measured(MEASURED)[0]
     ends = f"{np.nanmin(best):.4g} to {np.nanmax(best):.4g}"
     assert lines[3] == f"best manipulability of a cell: {ends}"
@@ -91,3 +96,24 @@ def test_the_summary_says_volume_directions_and_measure():
 def test_a_map_shows_itself_in_a_notebook():
     assert "reached" in MEASURED._repr_html_()
     assert pk.sweep.SweepMap is type(MEASURED)
+
+
+def test_a_sweep_is_frozen_and_not_compared_number_by_number():
+    sweep = Sweep(ARM, MEASURED.samples, CELLS)
+    with pytest.raises(FrozenInstanceError):
+        sweep.keep = "worst"  # type: ignore[misc]
+    assert sweep != Sweep(ARM, MEASURED.samples, CELLS)
+
+
+def test_of_other_than_cells_there_is_no_map():
+    sweep = Sweep(ARM, MEASURED.samples, TopList(3), "manipulability")
+    with pytest.raises(InputError, match=r"^map: expected a sweep of Cells, got TopList$"):
+        map_of(sweep, None)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [*dataclasses_of("poekin.sweep.maps", "sweep_map"), *dataclasses_of("poekin.sweep", "bins")],
+)
+def test_a_map_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

@@ -16,6 +16,7 @@ from poekin.sweep import Grid, JointTravel, Random, top
 from poekin.sweep.bins import TopList
 from poekin.sweep.execution.totals import Totals, part_of
 from poekin.sweep.sweep import Sweep
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import two_links
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -96,3 +97,8 @@ def test_a_store_keeps_and_gives_back_the_list(tmp_path):
 def test_what_cannot_be_found_is_refused(measure, options, words):
     with pytest.raises(InputError, match=words):
         top(ARM, measure, **{"samples": 100} | options)
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.sweep.maps", "top"))
+def test_a_list_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

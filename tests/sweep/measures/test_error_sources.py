@@ -99,9 +99,9 @@ def test_a_calibration_has_the_covariance_of_its_poses():
 @pytest.mark.parametrize(
     ("parameters", "words"),
     [
-        ("gains", "is a gain, whose error"),
+        ("gains", r"^calibration: shoulder_pan_joint: gain is a gain, whose error no screw has$"),
         ("pitch", "a pitch is estimated"),
-        ("backlash", "'backlash' is no error of a screw"),
+        ("backlash", r"^calibration: 'backlash' is no error of a screw: calibrate without it$"),
     ],
 )
 def test_a_calibration_of_what_no_screw_has_is_refused(parameters, words):

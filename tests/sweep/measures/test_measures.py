@@ -25,6 +25,7 @@ from poekin.sweep.measures.dexterity import PoseManipulability
 from poekin.sweep.measures.measure import Reach
 from poekin.sweep.measures.names import LABELS, MeasureName, measure_of
 from poekin.sweep.sweep import Keep
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import slide, two_links
 from tests.sweep.measures.first_order import effects
 
@@ -170,7 +171,9 @@ def test_a_coordinate_without_limits_has_no_margin():
     found = run(Sweep(free, samples, one, "limit_margin", "worst"))
     assert np.nanmin(np.asarray(found.best)) == pytest.approx(1 - np.abs(q[:, 0]).max(), abs=1e-15)
     bare = pk.Chain(two_links().screws, np.eye(4), frame="space")
-    with pytest.raises(InputError, match=r"limit_margin': no coordinate of .* has limits"):
+    with pytest.raises(
+        InputError, match=r"^sweep: measure 'limit_margin': no coordinate of <Chain .*> has limits$"
+    ):
         Sweep(bare, Random.of(bare, 5), CELLS, "limit_margin")
 
 
@@ -225,3 +228,10 @@ def test_what_cannot_be_measured_is_refused(make, kind, words):
 def slide_of_three():
     screws = [pk.screw.prismatic(axis) for axis in np.eye(3)]
     return pk.Chain(np.array(screws), np.eye(4), frame="space")
+
+
+@pytest.mark.parametrize(
+    "kind", dataclasses_of("poekin.sweep.measures", "joints dexterity measure")
+)
+def test_a_measure_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

@@ -10,6 +10,7 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError
 from poekin.sweep import PoseUncertainty, monte_carlo
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import slide, two_links
 from tests.sweep.measures.first_order import effects
 
@@ -72,8 +73,14 @@ def test_one_configuration_a_batch_and_a_dict_are_alike():
     assert one.position == batch.position[1]
     assert one.draws == 30_000
     assert monte_carlo(chain, q[1], error, draws=3).draws == 4
-    text = f"30000 arms, standard deviations: position {1e3 * batch.position.max():.4g} mm, bias "
-    assert batch.summary().startswith(text)
+    biases = [
+        np.linalg.norm(b, axis=1).max() for b in (batch.position_bias, batch.orientation_bias)
+    ]
+    assert batch.summary() == (
+        f"30000 arms, standard deviations: position {1e3 * batch.position.max():.4g} mm,"
+        f" bias {1e3 * biases[0]:.2g} mm; orientation {1e3 * batch.orientation.max():.4g} mrad,"
+        f" bias {1e3 * biases[1]:.2g} mrad"
+    )
     assert monte_carlo(chain, q[:0], error).summary() == "no configuration"
     other = monte_carlo(chain, q[1], error, draws=30_000, seed=2)
     assert other.position != one.position
@@ -89,3 +96,10 @@ def test_what_cannot_be_drawn_is_refused(options, words):
         monte_carlo(slide(), [0.1, 0.3], error, **options)
     with pytest.raises(InputError, match="it is of an arm of 2 joints"):
         monte_carlo(pk.load("ur5e").chain(), np.zeros(6), error)
+
+
+@pytest.mark.parametrize(
+    "kind", dataclasses_of("poekin.sweep.measures", "monte_carlo pose_uncertainty")
+)
+def test_an_error_is_frozen_and_equal_only_where_its_parts_can_be(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

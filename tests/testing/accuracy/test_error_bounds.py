@@ -126,8 +126,9 @@ def test_both_signs_are_right_within_8_u_of_pi_only(gap, both, size):
 )
 def test_a_twist_and_an_element_that_do_not_go_together_are_refused(xi, T):
     for call in (lambda: error_bounds.ratio_exp(xi, T), lambda: error_bounds.ratio_log(T, xi)):
-        with pytest.raises(
-            ShapeError,
-            match=r"expected xi \(6,\) with T \(4, 4\), or xi \(3,\) with T \(3, 3\), got",
-        ):
+        with pytest.raises(ShapeError) as caught:
             call()
+        assert str(caught.value) == (
+            "expected xi (6,) with T (4, 4), or xi (3,) with T (3, 3),"
+            f" got {xi.shape} with {T.shape}"
+        )

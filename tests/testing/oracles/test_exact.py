@@ -4,11 +4,15 @@ other libraries.
 
 from __future__ import annotations
 
+import re
+import runpy
+import sys
+
 import mpmath
 import numpy as np
 import pytest
 
-from poekin.errors import InputError
+from poekin.errors import InputError, MissingExtra
 from poekin.testing.oracles import exact, exact_jacobians, exact_numbers
 from poekin.testing.oracles.exact import mp, norm
 
@@ -168,8 +172,10 @@ def test_a_matrix_next_to_a_singular_one_has_no_polar_rotation():
 
 @pytest.mark.parametrize("last", [-1.0, -0.1, 0.0])
 def test_a_reflection_or_a_singular_matrix_has_no_polar_rotation(last):
-    with pytest.raises(ValueError, match="positive determinant"):
+    with pytest.raises(InputError) as caught:
         exact.polar(np.diag([1.0, 1.0, last]))
+    words = "only a matrix of positive determinant has a rotation as its polar factor, got"
+    assert str(caught.value) == f"{words} {last:.3g}"
 
 
 def test_inverse_and_forward_are_what_they_say():
@@ -265,7 +271,7 @@ def test_without_a_planted_error_everything_passes():
         (lambda: exact.adjoint(np.zeros((6, 6))), r"expected shape \(3, 3\) or \(4, 4\)"),
         (
             lambda: exact.forward(np.zeros((2, 6)), np.eye(4), [1.0]),
-            r"screws \(n, 6\) and x \(n,\), got \(2, 6\)",
+            r"^expected screws \(n, 6\) and x \(n,\), got \(2, 6\) and \(1,\)$",
         ),
         (
             lambda: exact.forward(np.zeros((1, 6)), np.eye(3), [1.0]),
@@ -284,3 +290,10 @@ def test_what_is_no_argument_is_refused(call, message):
 
 def test_nan_in_is_nan_out_without_a_warning():
     assert np.isnan(exact.rounded(exact.exp([np.nan, 0, 0]))).all()
+
+
+def test_without_mpmath_the_extra_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "mpmath", None)
+    message = "poekin.testing.oracles.exact needs the package mpmath: pip install 'poekin[testing]'"
+    with pytest.raises(MissingExtra, match=f"^{re.escape(message)}$"):
+        runpy.run_path(exact_numbers.__file__)

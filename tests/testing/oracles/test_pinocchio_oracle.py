@@ -117,15 +117,18 @@ def test_a_floating_joint_stays_at_identity():
 def test_what_is_unknown_is_named(oracle):
     with pytest.raises(UnknownName, match="no coordinate 'bendd'; did you mean 'bend'"):
         oracle.poses({"bendd": 0.0}, "e")
-    with pytest.raises(UnknownName, match="no link 'elbow'"):
+    with pytest.raises(UnknownName, match=r"^Pinocchio has no link 'elbow'; available: '"):
         oracle.poses({}, "elbow")
-    with pytest.raises(InputError, match=r"lengths \[2, 3\]"):
+    with pytest.raises(
+        InputError,
+        match=r"^values of one length for every coordinate expected, got lengths \[2, 3\]$",
+    ):
         oracle.poses({"bend": np.zeros(2), "turn": np.zeros(3)}, "e")
 
 
 def test_what_is_no_argument_is_refused(oracle):
     with pytest.raises(
-        InputError, match=r"expected a URDF itself, not where it is: Path.* got 'arm\.urdf'"
+        InputError, match=r"expected a URDF itself, not where it is: Path.* got 'arm\.urdf'$"
     ):
         PinocchioOracle("arm.urdf")
     with pytest.raises(
@@ -218,7 +221,10 @@ def test_stderr_is_its_own_again_after_many_threads_at_once(capfd):
 def test_a_missing_pinocchio_is_named_with_its_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "pinocchio", None)
     pinocchio_oracle.pinocchio.cache_clear()
-    with pytest.raises(MissingExtra, match=r"pip install 'poekin\[validate\]'"):
+    message = (
+        r"^validation against Pinocchio needs the package pin: pip install 'poekin\[validate\]'$"
+    )
+    with pytest.raises(MissingExtra, match=message):
         PinocchioOracle(URDF)
     pinocchio_oracle.pinocchio.cache_clear()
 

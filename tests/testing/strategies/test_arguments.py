@@ -34,7 +34,10 @@ C: Any = chain_strategies
 ARM = Chain.from_space([[0, 0, 1, 0, 0, 0]], np.eye(4))
 
 REFUSED: dict[str, tuple[Callable[[], object], str]] = {
-    "an angle of NaN": (lambda: S.angles(math.nan), "smallest <= largest, got (1e-150, nan)"),
+    "an angle of NaN": (
+        lambda: S.angles(math.nan),
+        "(|ω| in rad): expected finite numbers (smallest, largest), 0 < smallest <= largest, got",
+    ),
     "a negative angle": (lambda: S.twists(-1.0), "got (1e-150, -1.0)"),
     "a text": (lambda: S.rotation_vectors("pi"), "got (1e-150, 'pi')"),
     "bounds the wrong way round": (
@@ -48,7 +51,7 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     "a truth for a number": (lambda: S.magnitudes(True, 2.0), "got (True, 2.0)"),
     "a shape that is a number": (
         lambda: B.batches(S.twists(), 3),
-        "such as () or (3, 1, 2), got 3",
+        "shape: expected a tuple of whole numbers >= 0, such as () or (3, 1, 2), got 3",
     ),
     "a negative axis": (lambda: B.batches(S.twists(), (-1,)), "got (-1,)"),
     "elements that are an array": (

@@ -106,7 +106,10 @@ def test_a_built_in_arm_s_meshes_are_found_in_example_robot_data_or_the_extra_is
     erd.available()
     assert os.path.isfile(finder.find(name))
     monkeypatch.setattr(erd, "available", dict)
-    with pytest.raises(FileError, match=r"pip install 'poekin\[robots\]' brings it$"):
+    with pytest.raises(
+        FileError,
+        match=rf"^no package '{erd.PACKAGE}' near the model or in .+ has it: pip install 'poekin\[robots\]' brings it$",
+    ):
         MeshFinder("catalogue/panda.urdf").find(name)
 
 

@@ -133,7 +133,7 @@ HOSTILE = {
     "a circle": (dae('<instance_node url="#n"/>'), "m.dae", "name each other"),
     "many of one": (dae('<instance_geometry url="#g"/>' * 10_001), "m.dae", "too many times"),
     "a zip": (b"PK\3\4" + b"\0" * 100, "m.dae", "malformed XML"),
-    "no glb": (b"glTF", "m.glb", "no GLB"),
+    "no glb": (b"glTF", "m.glb", "it is no GLB of version 2"),
     "an array larger than its file": (
         glb(accessors=[{"componentType": 5126, "count": 10**12, "type": "VEC3"}] * 2),
         "m.glb",
@@ -215,8 +215,12 @@ def test_a_file_that_is_too_large_is_refused_unread(tmp_path):
 
 def test_without_pycollada_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "collada", None)
-    with pytest.raises(MissingExtra, match=r"pycollada: pip install 'poekin\[view\]'"):
+    message = r"^drawing meshes needs the package {}: pip install 'poekin\[view\]'$"
+    with pytest.raises(MissingExtra, match=message.format("pycollada")):
         load.load(dae(), "m.dae")
+    monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
+    with pytest.raises(MissingExtra, match=message.format("trimesh")):
+        load.load(stl(), "m.stl")
 
 
 def test_what_no_geometry_names_is_nothing_to_refuse():

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.view import shapes
 from poekin.view.meshes import mesh_nodes as module
+from poekin.view.meshes import reduce
 from poekin.view.meshes.mesh_nodes import mesh_nodes
 from poekin.view.nodes import Attachment
 from tests.view.meshes.mesh_files import FACES, TETRAHEDRON, corners, stl
@@ -106,6 +108,15 @@ def test_all_files_together_may_have_so_many_bytes(folder, monkeypatch):
     assert "meshes before it" in left.why
 
 
+def test_what_a_robot_s_meshes_have_already_is_said_in_mib(folder, monkeypatch):
+    (folder / "n.stl").write_bytes(stl(TETRAHEDRON * 2))
+    monkeypatch.setattr(module, "MOST_BYTES", 3 << 20)
+    monkeypatch.setattr(module.os.path, "getsize", lambda _: 2 << 20)
+    robot = robot_of(folder, visual(MESH) + visual('<mesh filename="n.stl"/>'))
+    _, (left,) = mesh_nodes(robot)
+    assert left.why == "the meshes before it have 3 MiB already"
+
+
 def test_of_a_robot_a_thousand_shapes_are_drawn_and_the_next_one_is_named(folder):
     box = '<box size="1 2 3"/>'
     (node,), (left,) = mesh_nodes(robot_of(folder, visual(box) * 1000 + visual(MESH)))
@@ -118,8 +129,10 @@ def test_a_robot_of_too_many_triangles_has_fewer_and_says_how_far_off(folder, mo
     nodes, (left,) = mesh_nodes(robot_of(folder, visual('<sphere radius="1"/>') * 2))
     drawn = sum(len(node.faces) for node in nodes)
     assert 0 < drawn <= 60
-    assert left.what.endswith(f"triangles are drawn as {drawn}")
-    assert left.why.startswith("no vertex is more than ")
+    sphere = shapes.sphere()
+    *_, diagonal = reduce.reduced(sphere.vertices, sphere.faces, 60 // 2)
+    assert left.what == f"{2 * len(sphere.faces)} triangles are drawn as {drawn}"
+    assert left.why == f"no vertex is more than {1e3 * diagonal:.2g} mm off"
 
 
 def test_an_mjcf_s_meshes_are_drawn_with_the_scale_and_the_frame_of_the_asset(folder):

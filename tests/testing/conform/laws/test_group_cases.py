@@ -159,6 +159,7 @@ def test_batches_are_judged_by_their_worst_and_have_their_shape(name, monkeypatc
     assert law.check(SUBJECT, Case(rows.ravel(), (3,))).grade == 3
     monkeypatch.setattr(SUBJECT, "function", lambda name: lambda x: np.zeros(3))
     assert "shape" in law.check(SUBJECT, case).fault
+    assert law.says.endswith("in shapes (), (1,), (0,), (3, 1, 2)")
 
 
 def test_noise_is_as_large_as_is_declared():

@@ -74,7 +74,7 @@ def test_a_subject_is_found_by_its_name(somebodys):
         ("..somebodys:Given", r"such as .*:Given; got"),
         (
             "nowhere:X",
-            r"'nowhere' cannot be imported: ModuleNotFoundError: No module named 'nowhere'$",
+            r"^the module 'nowhere' cannot be imported: ModuleNotFoundError: No module named 'nowhere'$",
         ),
         (
             "somebodys:given",
