@@ -190,9 +190,9 @@ def command(
         Convention.of(format, mm, deg),
     )
     options: dict[str, Any] = {
-        "parameters": _listed(parameters) or ("screws", "home"),
+        "parameters": listed(parameters) or ("screws", "home"),
         "loss": loss,
-        "joints": _listed(joints),
+        "joints": listed(joints),
         "prior": _prior(prior_angle, prior_length),
         "on_rank_deficiency": on_rank_deficiency,
         "folds": folds,
@@ -209,7 +209,7 @@ def command(
         else:
             found = _calibrated(chain, given, options)
     except (InputError, UnknownName) as fault:
-        raise type(fault)(_as_options(str(fault))) from fault
+        raise type(fault)(as_options(str(fault))) from fault
     # the controller's own poses are judged by their digits
     verdict = () if exact else found.verdict
     drawn = None if draw is None else view(found)
@@ -224,7 +224,7 @@ def command(
             print(as_json(_document(found, robot, given, outputs.written) | more))
         else:
             if verdict:
-                say(f"Do NOT use this calibration: {_as_options(verdict[0])}.")
+                say(f"Do NOT use this calibration: {as_options(verdict[0])}.")
             _show(found, robot, given, outputs)
             if of_fk is not None:
                 say(f"\n{of_fk}")
@@ -272,7 +272,7 @@ _OPTIONS = {
 _IGNORED = re.compile(r"ignore=\[('([\w.:/+-]+)'|'.*')\] passes it over")
 
 
-def _as_options(message: str) -> str:
+def as_options(message: str) -> str:
     """A message of the library about its parameters, as one about the options."""
     for word, option in _OPTIONS.items():
         message = message.replace(word, option)
@@ -282,7 +282,7 @@ def _as_options(message: str) -> str:
     return message
 
 
-def _listed(words: Sequence[str] | None) -> list[str] | None:
+def listed(words: Sequence[str] | None) -> list[str] | None:
     """The names in a repeated option, each of which may hold several with commas between."""
     return None if words is None else [part.strip() for word in words for part in word.split(",")]
 

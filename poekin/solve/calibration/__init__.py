@@ -7,6 +7,7 @@ from .compensation import Command
 from .design.choice import Choice, DesignMetrics
 from .design.choose import choose_poses
 from .design.observability import ObservabilityIndices, observability_indices
+from .design.visibility import ViewCone, WorkspaceBox
 from .diagnostics.cross_validation import CrossValidation
 from .diagnostics.identification import Identification, identify
 from .diagnostics.uncertainty import Workspace
@@ -49,7 +50,9 @@ __all__ = [
     "Simulated",
     "Term",
     "TermGain",
+    "ViewCone",
     "Workspace",
+    "WorkspaceBox",
     "apply",
     "calibrate",
     "choose_poses",
