@@ -103,6 +103,14 @@ Ignore = Annotated[
     Texts,
     Option("--ignore", metavar="COLUMN", help="A column to pass over; may be repeated."),
 ]
+Rename = Annotated[
+    Texts,
+    Option(
+        "--rename",
+        metavar="COLUMN=NAME",
+        help="A column of the files under the name that it is to have: x_t=x; may be repeated.",
+    ),
+]
 Format = Annotated[
     str | None,
     Option(
@@ -157,6 +165,7 @@ def command(
     folds: Folds = 5,
     seed: Seed = 0,
     ignore: Ignore = None,
+    rename: Rename = None,
     format: Format = None,
     mm: Mm = None,
     deg: Deg = None,
@@ -187,12 +196,12 @@ def command(
         sigma_angle,
         sigma_length,
         ignore or (),
-        Convention.of(format, mm, deg),
+        Convention.of(format, mm, deg)._replace(rename=measured.names(rename)),
     )
     options: dict[str, Any] = {
-        "parameters": listed(parameters) or ("screws", "home"),
+        "parameters": _listed(parameters) or ("screws", "home"),
         "loss": loss,
-        "joints": listed(joints),
+        "joints": _listed(joints),
         "prior": _prior(prior_angle, prior_length),
         "on_rank_deficiency": on_rank_deficiency,
         "folds": folds,
@@ -264,6 +273,8 @@ _OPTIONS = {
     "centre=None": "no --centre",
     "loss='huber'": "--loss huber",
     "prior={'rad'": "--prior-angle and --prior-length {'rad'",
+    "rename=": "--rename",
+    "rename: ": "--rename: ",
     "parameters=": "--parameters",
     "joints=": "--joints",
     "prior['rad']": "--prior-angle",
@@ -282,7 +293,7 @@ def as_options(message: str) -> str:
     return message
 
 
-def listed(words: Sequence[str] | None) -> list[str] | None:
+def _listed(words: Sequence[str] | None) -> list[str] | None:
     """The names in a repeated option, each of which may hold several with commas between."""
     return None if words is None else [part.strip() for word in words for part in word.split(",")]
 

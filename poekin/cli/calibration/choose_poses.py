@@ -36,10 +36,10 @@ from .calibrate import (
     Mm,
     Parameters,
     Point,
+    Rename,
     SigmaAngle,
     SigmaLength,
     as_options,
-    listed,
 )
 from .measured import MeasurementOptions
 
@@ -94,6 +94,7 @@ def command(
     sigma_angle: SigmaAngle = None,
     sigma_length: SigmaLength = None,
     ignore: Ignore = None,
+    rename: Rename = None,
     format: Format = None,
     mm: Mm = None,
     deg: Deg = None,
@@ -117,7 +118,7 @@ def command(
         sigma_angle,
         sigma_length,
         ignore or (),
-        Convention.of(format, mm, deg),
+        Convention.of(format, mm, deg)._replace(rename=measured_files.names(rename)),
     )
     of_tool = places.tool_point(said)
     allowed = [places.box(box, "--box", units, of_tool), places.cone(cone, units, of_tool)]
@@ -129,8 +130,8 @@ def command(
                 n,
                 _candidates(candidates, chain, units),
                 measurements=sets,
-                parameters=cast(Any, listed(parameters) or ("screws", "home")),
-                joints=listed(joints),
+                parameters=cast(Any, _listed(parameters) or ("screws", "home")),
+                joints=_listed(joints),
                 criterion=cast(Criterion, criterion),
                 measured=before,
                 allowed=[place for place in allowed if place is not None],
@@ -141,6 +142,11 @@ def command(
     except (InputError, UnknownName) as fault:
         raise type(fault)(_as_options(str(fault))) from fault
     _give(robot.name, chain, found, output, json, units)
+
+
+def _listed(words: Sequence[str] | None) -> list[str] | None:
+    """The names in a repeated option, each of which may hold several with commas between."""
+    return None if words is None else [part.strip() for word in words for part in word.split(",")]
 
 
 def _candidates(text: str, chain: Chain, units: SaidUnits) -> Array | int:

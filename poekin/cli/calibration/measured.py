@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...checks import positive
-from ...errors import InputError
+from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...solve.calibration.measurements import data
@@ -142,6 +142,20 @@ def _covariance(angle: float | None, length: float, kind: str, points: int) -> A
     else:
         deviations = np.full(3 * points, length)
     return np.diag(np.square(deviations))
+
+
+def names(renamed: Sequence[str] | None) -> dict[str, str]:
+    """Names of columns, of words `COLUMN=NAME`. Raises: InputError."""
+    pairs = {}
+    for word in renamed or ():
+        column, _, wanted = word.partition("=")
+        if not column or not wanted:
+            raise InputError(
+                f"--rename: expected the column's name in the file, = and the name that it is to have, as"
+                f" x_t=x; got {quote(word)}"
+            )
+        pairs[column] = wanted
+    return pairs
 
 
 def point(text: str, option: str, options: MeasurementOptions) -> Array:

@@ -19,6 +19,7 @@ from .measurements.measurement import Measurement
 from .measurements.points import Distances, Points
 from .measurements.poses import EyeInHand, EyeToHand, Poses
 from .measurements.simulated import Simulated, simulated
+from .model.configurations import average_repeats
 from .model.parameters import Parameter
 from .model.residuals import Residuals
 from .result import Outlier
@@ -54,6 +55,7 @@ __all__ = [
     "Workspace",
     "WorkspaceBox",
     "apply",
+    "average_repeats",
     "calibrate",
     "choose_poses",
     "from_fk",

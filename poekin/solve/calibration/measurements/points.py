@@ -64,7 +64,7 @@ def position(value: ArrayLike | None, name: str) -> Array | None:
     return position
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Points(Measurement):
     """Measured positions of one or several points of the tool.
 
@@ -164,7 +164,7 @@ class Points(Measurement):
         return [initial_guess.registration(nominal, measured)]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Distances(Measurement):
     """Measured distances d = |p(q) − c| of a point of the tool from a point that stands still.
 
