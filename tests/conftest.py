@@ -53,6 +53,7 @@ SLOW = (
         "solve/calibration/causes/test_wrong_data.py",
         "solve/calibration/fit/test_coverage.py",
         "solve/calibration/fit/test_cubes.py",
+        "solve/calibration/design/test_true_error.py",
     ),
     *("formats/urdf_in_place/test_in_place.py", "formats/relink/test_relinked.py"),
     *("formats/test_urdf_text.py", "cli/formats/test_draw.py"),

@@ -9,7 +9,7 @@ import typer
 
 from . import conform, warm
 from . import list as names
-from .calibration import apply, calibrate
+from .calibration import apply, calibrate, choose_poses
 from .kinematics import fk, follow, ik, jacobian, singularity
 from .model import takes_models
 from .models import axes, compare, count, dh, emit, info, urdf, validate, view
@@ -23,8 +23,8 @@ app = typer.Typer(
 )
 
 COMMANDS: tuple[ModuleType, ...] = (
-    *(info, fk, jacobian, singularity, ik, follow, calibrate, apply, validate, urdf, compare),
-    *(view, conform, axes, dh, count, emit, names, warm),
+    *(info, fk, jacobian, singularity, ik, follow, calibrate, choose_poses, apply, validate, urdf),
+    *(compare, view, conform, axes, dh, count, emit, names, warm),
 )
 # Unknown options of these pass through to q, so that -0.5 is a number; there are no one-letter
 # options that it could be.
@@ -35,7 +35,8 @@ for module in COMMANDS:
     if module not in (conform, names, warm):
         run = takes_models(run)
     settings = {"ignore_unknown_options": module in TAKE_NUMBERS}
-    app.command(module.__name__.rpartition(".")[2], context_settings=settings)(run)
+    name = module.__name__.rpartition(".")[2].replace("_", "-")
+    app.command(name, context_settings=settings)(run)
 
 sweeps = typer.Typer(
     rich_markup_mode=None,

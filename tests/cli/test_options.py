@@ -32,6 +32,12 @@ DEFAULTS: dict[str, dict[str, object]] = {
         "exact": False,
         "json": False,
     },
+    "choose_poses": {
+        "candidates": "2000",
+        "criterion": "prediction",
+        "seed": 0,
+        "json": False,
+    },
     "compare": {
         "tol_mm": 0.01,
         "tol_deg": 0.001,
@@ -63,6 +69,7 @@ DEFAULTS: dict[str, dict[str, object]] = {
 }
 LEAST: dict[str, dict[str, float]] = {
     "calibrate": {"folds": 0, "seed": 0},
+    "choose_poses": {"n": 1, "seed": 0},
     "compare": {"samples": 1, "seed": 0},
     "conform": {"examples": 1, "seconds": 0.1, "limit": 0.1},
     "follow": {"seed": 0},

@@ -103,6 +103,14 @@ Ignore = Annotated[
     Texts,
     Option("--ignore", metavar="COLUMN", help="A column to pass over; may be repeated."),
 ]
+Rename = Annotated[
+    Texts,
+    Option(
+        "--rename",
+        metavar="COLUMN=NAME",
+        help="A column of the files under the name that it is to have: x_t=x; may be repeated.",
+    ),
+]
 Format = Annotated[
     str | None,
     Option(
@@ -157,6 +165,7 @@ def command(
     folds: Folds = 5,
     seed: Seed = 0,
     ignore: Ignore = None,
+    rename: Rename = None,
     format: Format = None,
     mm: Mm = None,
     deg: Deg = None,
@@ -187,7 +196,7 @@ def command(
         sigma_angle,
         sigma_length,
         ignore or (),
-        Convention.of(format, mm, deg),
+        Convention.of(format, mm, deg)._replace(rename=measured.names(rename)),
     )
     options: dict[str, Any] = {
         "parameters": _listed(parameters) or ("screws", "home"),
@@ -209,7 +218,7 @@ def command(
         else:
             found = _calibrated(chain, given, options)
     except (InputError, UnknownName) as fault:
-        raise type(fault)(_as_options(str(fault))) from fault
+        raise type(fault)(as_options(str(fault))) from fault
     # the controller's own poses are judged by their digits
     verdict = () if exact else found.verdict
     drawn = None if draw is None else view(found)
@@ -224,7 +233,7 @@ def command(
             print(as_json(_document(found, robot, given, outputs.written) | more))
         else:
             if verdict:
-                say(f"Do NOT use this calibration: {_as_options(verdict[0])}.")
+                say(f"Do NOT use this calibration: {as_options(verdict[0])}.")
             _show(found, robot, given, outputs)
             if of_fk is not None:
                 say(f"\n{of_fk}")
@@ -264,6 +273,8 @@ _OPTIONS = {
     "centre=None": "no --centre",
     "loss='huber'": "--loss huber",
     "prior={'rad'": "--prior-angle and --prior-length {'rad'",
+    "rename=": "--rename",
+    "rename: ": "--rename: ",
     "parameters=": "--parameters",
     "joints=": "--joints",
     "prior['rad']": "--prior-angle",
@@ -272,7 +283,7 @@ _OPTIONS = {
 _IGNORED = re.compile(r"ignore=\[('([\w.:/+-]+)'|'.*')\] passes it over")
 
 
-def _as_options(message: str) -> str:
+def as_options(message: str) -> str:
     """A message of the library about its parameters, as one about the options."""
     for word, option in _OPTIONS.items():
         message = message.replace(word, option)

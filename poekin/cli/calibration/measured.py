@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...checks import positive
-from ...errors import InputError
+from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...solve.calibration.measurements import data
@@ -75,12 +75,12 @@ def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Mea
                 )
             )
     made = [kind or table.layout.kinds[0] for kind, table in zip(kinds, tables, strict=True)]
-    _check_fit(options, made)
+    check_fit(options, made)
     readings = [np.empty((0, chain.dof))]
     sets: list[Measurement] = []
     sources: list[str] = []
     for kind, table in zip(made, tables, strict=True):
-        known = _known(options, kind, len(table.layout.columns) // 3)
+        known = known_arguments(options, kind, len(table.layout.columns) // 3)
         rows = np.arange(len(table.q)) + len(sources)
         sets.append(data.make_measurement(table, kind, known).with_rows(rows))
         readings.append(table.q)
@@ -88,7 +88,7 @@ def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Mea
     return Measured(np.concatenate(readings), sets, sources)
 
 
-def _check_fit(options: MeasurementOptions, kinds: Sequence[str]) -> None:
+def check_fit(options: MeasurementOptions, kinds: Sequence[str]) -> None:
     """Refuse options of which no file knows anything."""
     for name in ("point", "frame", "centre"):
         takers = [kind for kind, takes in _TAKES.items() if name in takes]
@@ -116,20 +116,20 @@ def _angular(kind: str) -> bool:
     return bool(data.KINDS.get(kind, Measurement).angular)
 
 
-def _known(options: MeasurementOptions, kind: str, points: int) -> dict[str, Any]:
+def known_arguments(options: MeasurementOptions, kind: str, points: int) -> dict[str, Any]:
     """The other arguments of `data.read` for measurements of this kind."""
     known: dict[str, Any] = {}
     takes = _TAKES.get(kind, ())
     if options.sigma_length is not None:
         known["covariance"] = _covariance(options.sigma_angle, options.sigma_length, kind, points)
     if options.point and "point" in takes:
-        positions = np.array([_point(text, "--point", options) for text in options.point])
+        positions = np.array([point(text, "--point", options) for text in options.point])
         # of several, distances are to the first
         known |= {"points": positions} if kind == "points" else {"point": positions[0]}
     if options.frame is not None and "frame" in takes:
         known["frame"] = options.frame
     if options.centre is not None and "centre" in takes:
-        known["centre"] = _point(options.centre, "--centre", options)
+        known["centre"] = point(options.centre, "--centre", options)
     return known
 
 
@@ -144,7 +144,21 @@ def _covariance(angle: float | None, length: float, kind: str, points: int) -> A
     return np.diag(np.square(deviations))
 
 
-def _point(text: str, option: str, options: MeasurementOptions) -> Array:
+def names(renamed: Sequence[str] | None) -> dict[str, str]:
+    """Names of columns, of words `COLUMN=NAME`. Raises: InputError."""
+    pairs = {}
+    for word in renamed or ():
+        column, _, wanted = word.partition("=")
+        if not column or not wanted:
+            raise InputError(
+                f"--rename: expected the column's name in the file, = and the name that it is to have, as"
+                f" x_t=x; got {quote(word)}"
+            )
+        pairs[column] = wanted
+    return pairs
+
+
+def point(text: str, option: str, options: MeasurementOptions) -> Array:
     """A point, in m, of an option that is in the unit of lengths."""
     p = vector(text, option)
     return p / 1000.0 if options.convention.mm else p

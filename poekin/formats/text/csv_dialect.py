@@ -13,12 +13,35 @@ import warnings
 from collections.abc import Iterable, Iterator, Sequence
 
 from ...errors import FileError, InputError, PoekinWarning, quote
+from .numbers import real
 
 Line = tuple[int, list[str]]
 _QUOTED = re.compile(r'"[^"]*"')
 _SAID = re.compile(r"sep=([;,\t])", re.IGNORECASE)
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d*(?:[eE][+-]?\d+)?\s*")
+# not where it is the name of a column
+_COMMENT = re.compile(r"\s*(?:#+|//|%)(?!\s*[,;\t])\s?")
 _THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}\s*")
+
+
+def with_header(lines: Iterator[str]) -> Iterator[str]:
+    """Lines of which those at the top that begin with #, // or % are empty; where the first other
+    one has numbers alone, the last of them is the header, as numpy.savetxt writes it.
+    """
+    above: list[str] = []
+    for line in lines:
+        mark = _COMMENT.match(line)
+        if line.strip() and not mark:
+            words = re.split(r"[\s,;]+", line.strip(" \t\r\n,;"))
+            comments = [k for k, other in enumerate(above) if other.strip()]
+            if comments and all(real(word) is not None for word in words):
+                header = comments.pop()
+                above[header] = _COMMENT.sub("", above[header], count=1)
+            for k in comments:
+                above[k] = "\n"
+            return itertools.chain(above, [line], lines)
+        above.append(line)
+    return iter(above)
 
 
 def split(lines: Iterator[str], where: str, names: Sequence[str] = ()) -> Iterator[Line]:

@@ -102,12 +102,12 @@ def read_chosen(
     """Rows (N, k) of chosen columns, and the number of each row's line in the file (N,); other
     columns may hold text.
 
-    The first line that is not empty names the columns. choose(names, where): the indices of the
+    The first line that is not empty, nor a comment, names the columns. choose(names, where): the indices of the
     columns that are read, in the order in which they are returned; the other parameters and errors
     are those of `read`.
     Raises also: InputError for a file without a line.
     """
-    lines = csv_dialect.split(_bounded(stream, where), where)
+    lines = csv_dialect.split(csv_dialect.with_header(_bounded(stream, where)), where)
     line, cells = next(lines, (0, []))
     if not cells:
         raise InputError(

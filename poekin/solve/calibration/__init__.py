@@ -7,6 +7,7 @@ from .compensation import Command
 from .design.choice import Choice, DesignMetrics
 from .design.choose import choose_poses
 from .design.observability import ObservabilityIndices, observability_indices
+from .design.visibility import ViewCone, WorkspaceBox
 from .diagnostics.cross_validation import CrossValidation
 from .diagnostics.identification import Identification, identify
 from .diagnostics.uncertainty import Workspace
@@ -18,6 +19,7 @@ from .measurements.measurement import Measurement
 from .measurements.points import Distances, Points
 from .measurements.poses import EyeInHand, EyeToHand, Poses
 from .measurements.simulated import Simulated, simulated
+from .model.configurations import average_repeats
 from .model.parameters import Parameter
 from .model.residuals import Residuals
 from .result import Outlier
@@ -49,8 +51,11 @@ __all__ = [
     "Simulated",
     "Term",
     "TermGain",
+    "ViewCone",
     "Workspace",
+    "WorkspaceBox",
     "apply",
+    "average_repeats",
     "calibrate",
     "choose_poses",
     "from_fk",

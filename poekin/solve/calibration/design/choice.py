@@ -30,8 +30,8 @@ class DesignMetrics(NamedTuple):
     O1, condition, smallest, amplification : float
         Observability indices.
     prediction : float
-        Rms error that noise leaves in the calibrated model, over all candidates, ÷ that of one
-        measurement; smaller is better.
+        Rms error that noise leaves in what the calibrated model predicts, over the workspace, ÷ the
+        noise of a measured number; smaller is better.
     """
 
     O1: float
@@ -51,7 +51,7 @@ class Choice(Result):
         The configurations, rad or m.
     rows : (n,) ndarray of int
         Their rows of the candidates, ascending.
-    criterion : {"amplification", "O1", "condition", "smallest", "prediction"}
+    criterion : {"prediction", "O1", "amplification", "condition", "smallest"}
         Criterion that was optimised.
     metrics : DesignMetrics
         Metrics of the choice.
@@ -64,9 +64,11 @@ class Choice(Result):
     unobserved : tuple of str
         Parameters that the candidates do not identify, in words.
     candidates : int
-        Number of candidates.
+        Number of candidates that are allowed.
     n_random : int
         Number of random choices.
+    measured : int
+        Number of configurations that were measured before.
     """
 
     derived: ClassVar = ("improvement", "criterion_improvement")
@@ -82,6 +84,7 @@ class Choice(Result):
     unobserved: tuple[str, ...]
     candidates: int
     n_random: int
+    measured: int = 0
 
     @property
     def improvement(self) -> DesignMetrics:
@@ -106,8 +109,9 @@ class Choice(Result):
             f"{getattr(metrics, self.criterion):.3g}"
             for metrics in (self.metrics, self.random_median, self.random_best)
         )
+        beside = f" beside {self.measured} measured ones" * bool(self.measured)
         words = (
-            f"{len(self.q)} of {self.candidates} configurations for {self.rank} parameters: "
+            f"{len(self.q)} of {self.candidates} configurations{beside} for {self.rank} parameters: "
             f"{_NAMES[self.criterion]} {own}, {self.criterion_improvement:.2f} times better than "
             f"the median of {self.n_random} random choices ({median}, the best of them {best})"
         )

@@ -7,31 +7,33 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ....checks import choice, is_whole, whole
-from ....errors import InputError, ShapeError, quote, safe_repr
+from ....checks import choice, whole
+from ....errors import InputError, safe_repr
 from ....groups.arrays import Array
-from ....model.chain import Chain
-from ....model.checks import finite
-from ....model.coordinates import coordinates
 from ....model.kinematics.arm import Arm, chain_of
 from ....results import Progress
 from ..diagnostics.identification import (
-    RANK,
     identification_matrix,
     identify_directions,
     row_space,
     scaled_jacobians,
 )
-from ..measurements.measurement import Measurement
+from ..measurements.measurement import Measurement, per_error
 from ..measurements.points import Points
 from ..measurements.poses import Poses
 from ..model.error_model import ErrorModel
 from ..model.parameters import ParameterKind
 from ..model.problem import Problem
-from ..model.tsqr import qr_r
-from . import observability
+from .candidates import (
+    Predicate,
+    parse_candidates,
+    parse_measured,
+    parse_predicates,
+    parse_workspace,
+)
 from .choice import SMALLER_IS_BETTER, Choice, DesignMetrics
-from .exchange import CRITERIA, Criterion, exchange, greedy
+from .exchange import CRITERIA, Criterion, exchange
+from .metrics import Design, check_enough, design_metrics, root_information
 
 
 def choose_poses(  # noqa: PLR0913 - options by keyword
@@ -42,15 +44,18 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
     measurements: Measurement | Sequence[Measurement] | Literal["poses", "points"] = "poses",
     parameters: ParameterKind | Sequence[ParameterKind] = ("screws", "home"),
     joints: Sequence[str] | None = None,
-    criterion: Criterion = "amplification",
+    criterion: Criterion = "prediction",
+    measured: Any = None,
+    allowed: Predicate | Sequence[Predicate] | None = None,
+    workspace: Any = None,
     n_random: int = 100,
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Choice:
     """Choice of the n candidates at which measuring tells most about the parameters of the arm.
 
-    A greedy start, bettered by exchanging one configuration at a time until no exchange helps: a
-    local best. The same arguments give the same choice.
+    A greedy start, bettered by exchanging one configuration at a time, for those that promise most,
+    until no exchange helps: a local best. The same arguments give the same choice.
 
     Parameters
     ----------
@@ -62,16 +67,24 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
         Configurations, rad or m, within the limits, or how many of them to draw within the limits.
     measurements : {"poses", "points"} or Measurement or sequence of Measurement, default "poses"
         What will be measured at each: poses or points of the tip, or examples such as `Points` or
-        `EyeInHand`, of which points, centre, board and camera count, measured numbers and
-        covariances do not. A board or camera has to be given roughly; a device in an unknown frame
-        is taken to stand at the base.
+        `EyeInHand`, of which points, centre, board, camera and the first covariance count, measured
+        numbers do not. A board or camera has to be given roughly; a device in an unknown frame is
+        taken to stand at the base.
     parameters, joints : sequence of str, optional
         As of `calibrate`.
-    criterion : {"amplification", "O1", "condition", "smallest", "prediction"}
-        Observability index, or "prediction": the least mean variance of the calibrated arm's errors
-        over all candidates. The indices look at the worst seen combination of parameters, which
-        poses may hardly depend on: where the arm's accuracy is what matters, take "prediction" or
-        "O1", and look at `improvement`. Default "amplification", the noise amplification index.
+    criterion : {"prediction", "O1", "amplification", "condition", "smallest"}
+        "prediction", the default: the least expected squared error of what the calibrated arm
+        predicts over the workspace. Else an observability index: they look at parameters, and but for
+        "O1" at the worst seen combination of them, which poses may hardly depend on: the noise
+        amplification index may well do worse than random choices.
+    measured : (M, m) array_like, optional
+        Configurations at which the same was measured before: the n that help most beside them.
+    allowed : callable or sequence of callable, optional
+        Where measuring is possible: functions of q (K, m) and T_base_tip (K, 4, 4) that return K
+        booleans, such as `WorkspaceBox`, `ViewCone`, or a check for collisions. All have to agree.
+    workspace : (W, m) array_like, callable or sequence of callable, optional
+        Configurations over which "prediction" is meant, or predicates of those that are drawn; the
+        candidates by default.
     n_random : int, default 100
         Number of random choices to compare with.
     seed : int, default 0
@@ -88,16 +101,17 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
     ------
     InputError
         If a candidate is outside the limits (its row), n too small for the parameters (how many are
-        needed), n above K, or an option out of its range.
+        needed), n above what is allowed of K, or an option out of its range.
     ShapeError
-        If the candidates are no configurations.
+        If configurations are none, or a predicate returns no booleans.
     UnknownName
         If a joint is not there.
 
     Notes
     -----
-    Accuracy: as `observability_indices` on the space that the candidates show; angles in rad,
-    lengths in reaches, noise alike in all. Source: indices: `observability_indices`; search:
+    Accuracy: as `observability_indices` on the space that the candidates show; where not all
+    measurements have a covariance, angles in rad, lengths in reaches, noise alike in all. Source:
+    indices: `observability_indices`; search:
     Fedorov 1972 ("Theory of optimal experiments"), Mitchell 1974 (DETMAX); prediction:
     V-optimality, Fedorov 1972, as the test poses of Wu, Klimchik, Pashkevich, Caro and Furet 2013
     ("Efficiency improvement of measurement pose selection techniques in robot calibration").
@@ -111,38 +125,59 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
     ((15, 6), 30)
     >>> choice.criterion_improvement > 1
     True
+    >>> more = pk.choose_poses(arm, 3, 60, measured=choice.q, n_random=20)
+    >>> more.metrics.prediction < choice.metrics.prediction
+    True
     """
     chain = chain_of(chain)
     whole(n, "n", 1)
     whole(n_random, "n_random", 1)
     whole(seed, "seed", 0)
     choice(criterion, CRITERIA, "criterion")
-    q = _candidates(chain, candidates, seed)
+    predicates = parse_predicates(allowed, "allowed")
+    every, rows = parse_candidates(chain, candidates, seed, predicates)
+    q = every[rows]
     if n > len(q):
-        raise InputError(f"n: expected at most the {len(q)} candidates, got {n}")
+        those = f"{len(q)} candidates"
+        if len(rows) < len(every):
+            those = f"{len(q)} of {len(every)} candidates that are allowed"
+        raise InputError(f"n: expected at most the {those}, got {n}")
+    before = parse_measured(chain, measured)
     sets = _examples(measurements)
     model = ErrorModel(chain, parameters, joints)
-    problem = Problem(model, q, sets, _rough_frames(sets))
+    both = np.concatenate([q, before])
+    problem = Problem(model, both, sets, _rough_frames(sets))
     identification = identify_directions(problem)[0]
     if not identification.rank:
         raise InputError(
             f"choose_poses: such measurements identify none of the {problem.size} parameters anywhere"
         )
-    # of each candidate (K, r, L), on the space that all of them together show
+    # of each configuration (K, r, L), on the space that all of them together show
     seen = row_space(identification_matrix(problem)).basis
-    blocks = np.concatenate(scaled_jacobians(problem), axis=1) @ seen
-    _enough(blocks, n)
-    rows = exchange(blocks, n, criterion, progress)
+    blocks = _information(problem, both) @ seen
+    where = blocks[: len(q)]
+    if workspace is not None:
+        where = _information(problem, parse_workspace(chain, workspace, seed)) @ seen
+    design = Design(blocks[: len(q)], blocks[len(q) :], root_information(where))
+    check_enough(design, n)
+    chosen = exchange(
+        design.blocks,
+        n,
+        criterion,
+        progress,
+        mean=design.root.T @ design.root,
+        given=design.given_rows,
+    )
     rng = np.random.default_rng((seed, 1))
     drawn = [rng.choice(len(q), n, replace=False) for _ in range(n_random)]
-    others = np.array([design_metrics(blocks, some) for some in drawn])
+    others = np.array([design_metrics(design, some) for some in drawn])
     smaller = [name in SMALLER_IS_BETTER for name in DesignMetrics._fields]
     best = np.where(smaller, others.min(axis=0), others.max(axis=0))
     return Choice(
-        q=q[rows],
-        rows=rows,
+        q=q[chosen],
+        rows=rows[chosen],
         criterion=criterion,
-        metrics=design_metrics(blocks, rows),
+        metrics=design_metrics(design, chosen),
         random_median=DesignMetrics(*np.median(others, axis=0).tolist()),
         random_best=DesignMetrics(*best.tolist()),
         rank=identification.rank,
@@ -150,33 +185,8 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
         unobserved=identification.unobserved,
         candidates=len(q),
         n_random=int(n_random),
+        measured=len(before),
     )
-
-
-def _candidates(chain: Chain, candidates: Any, seed: int) -> Array:
-    """The candidates (K, m), finite and within the limits."""
-    if is_whole(candidates, 1):
-        return chain.random(seed, int(candidates))
-    scalar = candidates is None or isinstance(candidates, (str, int, float, np.generic))
-    q = np.empty(()) if scalar else coordinates(candidates, chain.q_names, "candidates")
-    if q.ndim != 2:
-        raise ShapeError(
-            f"candidates: expected configurations (K, {chain.dof}), or how many to draw, got "
-            f"{safe_repr(candidates)}"
-        )
-    q = finite(q, "candidates")
-    lower, upper = chain.limits.T
-    bad = (q < lower) | (q > upper)
-    for row, k in np.argwhere(bad).tolist():
-        many = int(bad.any(axis=1).sum())
-        others = ""
-        if many > 1:
-            others = f"; {many} of the {len(q)} candidates cannot be taken"
-        raise InputError(
-            f"candidates[{row}]: {quote(chain.q_names[k])} = {q[row, k]:.6g} is outside its limits "
-            f"{lower[k]:.6g} to {upper[k]:.6g}{others}"
-        )
-    return q
 
 
 def _examples(measurements: Any) -> list[Measurement]:
@@ -212,36 +222,16 @@ def _rough_frames(sets: list[Measurement]) -> list[Array]:
     return frames
 
 
-def _enough(blocks: Array, n: int) -> None:
-    """Raises InputError that says how many configurations show what all candidates show, where n do
-    not.
+def _information(problem: Problem, q: Array) -> Array:
+    """Rows (K, r, P) of what each set of measurements tells at configurations (K, m), by its
+    covariance where all sets have one, else in rad and reaches.
     """
-    size = blocks.shape[2]
-    most = min(len(blocks), max(n, size))
-    start = np.array(greedy(blocks, most))
-
-    def shows(count: int) -> bool:
-        return design_metrics(blocks, start[:count]).smallest > 0
-
-    if not shows(n):
-        needed = next(filter(shows, range(n, len(start))), len(start))
-        raise InputError(
-            f"n: {n} configurations of {blocks.shape[1]} equations each are too few for {size} "
-            f"parameters: expected at least {needed}, better three times as many; or calibrate less"
-            " (parameters=, joints=)"
-        )
-
-
-def design_metrics(blocks: Array, rows: np.ndarray) -> DesignMetrics:
-    """The metrics of the candidates `rows`."""
-    size = blocks.shape[2]
-    J = blocks[rows].reshape(-1, size)
-    _, s, Vt = np.linalg.svd(qr_r(J), full_matrices=False)
-    if len(s) < size or s[-1] <= RANK * s[0]:
-        return DesignMetrics(*observability.UNOBSERVED, np.inf)
-    indices = observability.from_singular_values(s, len(rows))
-    # the errors at the candidates are B_k dp, and the covariance of dp is (J^T J)^-1 = V s^-2 V^T
-    spread = blocks @ (Vt.T / s)
-    variances = np.sum(spread**2, axis=2)
-    prediction = np.sqrt(np.mean(variances))
-    return DesignMetrics(*indices, float(prediction))
+    parts = scaled_jacobians(problem, q)
+    covariances = [s.covariance for s in problem.sets]
+    if all(C is not None for C in covariances):
+        reach = problem.model.nominal.reach
+        for k, s in enumerate(problem.sets):
+            unit = per_error(s, 1.0, reach)
+            L = np.linalg.cholesky(covariances[k][0] / np.outer(unit, unit))
+            parts[k] = np.linalg.solve(L, parts[k])
+    return np.concatenate(parts, axis=1)

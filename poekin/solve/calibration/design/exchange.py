@@ -3,7 +3,8 @@ exchanges.
 
 All on plain arrays: `blocks` (K, r, L), the identification matrix' rows of each candidate, scaled,
 on the L directions that can be seen. N = sum of B_k^T B_k over the chosen is their information
-matrix; its eigenvalues are the squares of the singular values that the indices are made of.
+matrix, with that of what was measured before; its eigenvalues are the squares of the singular values
+that the indices are made of.
 """
 
 from __future__ import annotations
@@ -15,13 +16,20 @@ import numpy as np
 
 from ....groups.arrays import Array
 from ....results import Progress
-from ..model.tsqr import qr_r
+from ..model.tsqr import blocked_product
+from .greedy import greedy, rows_before
 
-Criterion = Literal["amplification", "O1", "condition", "smallest", "prediction"]
+Criterion = Literal["prediction", "O1", "amplification", "condition", "smallest"]
 CRITERIA: tuple[Criterion, ...] = get_args(Criterion)
-"""Criteria of a choice: one of the four `ObservabilityIndices`, or "prediction", the variance that
-the calibrated model's errors then have, the mean over all candidates (V-optimality, Fedorov 1972).
+"""Criteria of a choice: "prediction", the variance that the calibrated model's errors then have, the
+mean over the workspace (V-optimality, Fedorov 1972), or one of the four `ObservabilityIndices`.
 """
+WITH_INVERSE = ("prediction", "O1")
+"""Criteria that are functions of N^-1; the others are of its extreme eigenvalues."""
+SHORTLIST = 250
+"""Candidates that exchanges are tried with, of those criteria: the ones that promise most."""
+LISTS = 4
+"""Times at most that a list is made anew, where exchanges have changed what promises most."""
 
 # in the logarithm of the criterion: less is rounding, and exchanges for it could go round in
 # circles
@@ -30,53 +38,34 @@ MIN_IMPROVEMENT = 1e-9
 LOWEST = 8
 HIGHEST = 2
 TOGETHER = 32  # exchanges that are evaluated in full at a time
-# of the information of a mean candidate: stands in for what the first few do not see
-REGULARISATION = 1e-9
-
-
-def greedy(
-    blocks: Array,
-    n: int,
-    tick: Callable[[], None] = lambda: None,
-) -> list[int]:
-    """n rows of blocks (K, r, L), each the one that adds most to log det N; tick() after each."""
-    count, rows, size = blocks.shape
-    # On axes in which all candidates together show every direction alike: what is best is the same.
-    R = qr_r(blocks.reshape(-1, size))
-    blocks = blocks @ np.linalg.inv(R)
-    N = np.eye(size) * (REGULARISATION / count)
-    chosen: list[int] = []
-    for _ in range(n):
-        # det(N + B^T B) = det N det(1 + B N^-1 B^T)
-        products = blocks @ np.linalg.inv(N) @ blocks.transpose(0, 2, 1)
-        factors = np.eye(rows) + products
-        _, gains = np.linalg.slogdet(factors)
-        gains[chosen] = -np.inf
-        best = int(gains.argmax())
-        chosen.append(best)
-        N = N + blocks[best].T @ blocks[best]
-        tick()
-    return chosen
 
 
 def exchange(
     blocks: Array,
     n: int,
-    criterion: Criterion = "amplification",
+    criterion: Criterion = "prediction",
     progress: Progress | None = None,
+    *,
+    mean: Any = None,
+    given: Array | None = None,
 ) -> np.ndarray:
     """The rows of blocks, ascending, of n candidates of which none can be exchanged for a better
-    one.
+    one of those that promise most.
 
-    Parameters: blocks (K, r, L), of which some n see all L directions, n <= K; criterion, one of
-    `CRITERIA`; progress(done, total), called after each step, total an estimate that may grow.
+    Parameters: blocks (K, r, L), of which some n, with those before, see all L directions, n <= K;
+    criterion, one of `CRITERIA`; progress(done, total), called after each step, total an estimate
+    that may grow; mean (L, L), the mean information of a measurement in the workspace (default: of a
+    candidate), for "prediction"; given (k, L), rows of what was measured before.
     Returns: (n,) of int, the same at every call: a local best, from the greedy start.
-    Accuracy: an exchange counts if it improves the criterion by 1e-9 of it.
+    Accuracy: an exchange counts if it improves the criterion by 1e-9 of it; those are tried that
+    promise most.
     Source: Fedorov 1972 ("Theory of optimal experiments"), one of the chosen after the other; the
     greedy start and the exchange are those of DETMAX (Mitchell 1974), which Daney, Papegay and
     Madeline 2005 use for the poses of robots.
     """
-    blocks = np.asarray(np.linalg.qr(blocks, mode="r"))  # the same information in min(r, L) rows
+    _, rows, size = blocks.shape
+    if rows > size:  # the same information in L rows
+        blocks = np.asarray(np.linalg.qr(blocks, mode="r"))
     done = 0
     total = 9 * n
 
@@ -87,9 +76,25 @@ def exchange(
         if progress is not None:
             progress(done, total)
 
-    chosen = np.array(greedy(blocks, n, tick))
-    mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
-    search = Search(blocks, criterion, mean)
+    chosen = np.array(greedy(blocks, n, tick, given))
+    if mean is None:
+        mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
+    search = Search(blocks, criterion, mean, rows_before(given, size))
+    for _ in range(LISTS):
+        listed = promising(search, chosen)
+        found = listed[_exchanged(search._replace(blocks=blocks[listed]), n, tick)]
+        is_last = len(listed) == len(blocks) or np.array_equal(found, chosen)
+        chosen = found
+        if is_last:
+            break
+    if progress is not None:
+        progress(done, done)
+    return np.sort(chosen)
+
+
+def _exchanged(search: Search, n: int, tick: Callable[[], None]) -> np.ndarray:
+    """The first n of the candidates, exchanged for others until no exchange helps."""
+    chosen = np.arange(n)
     state = design_state(search, chosen)
     place = 0
     idle = 0
@@ -106,19 +111,18 @@ def exchange(
                 idle = 0
         place = (place + 1) % n
         tick()
-    if progress is not None:
-        progress(done, done)
-    return np.sort(chosen)
+    return chosen
 
 
 class Search(NamedTuple):
-    """Rows (K, r, L) of each candidate, the criterion, and the mean information (L, L) of a
-    candidate.
+    """Rows (K, r, L) of each candidate, the criterion, the mean information (L, L) of a measurement
+    in the workspace, and the rows (k, L) of what was measured before.
     """
 
     blocks: Array
     criterion: Criterion
     mean: Array
+    given: Array
 
 
 class DesignState(NamedTuple):
@@ -136,10 +140,10 @@ class DesignState(NamedTuple):
 def design_state(search: Search, chosen: np.ndarray) -> DesignState:
     """State of the rows `chosen` of the candidates."""
     size = search.blocks.shape[2]
-    J = search.blocks[chosen].reshape(-1, size)
+    J = np.concatenate([search.blocks[chosen].reshape(-1, size), search.given])
     N = J.T @ J
     worth = float(value(N, search.criterion, search.mean))
-    if search.criterion in ("O1", "prediction"):
+    if search.criterion in WITH_INVERSE:
         inverse = np.linalg.inv(N)
         return DesignState(N, worth, inverse)
     eigenvalues, V = np.linalg.eigh(N)
@@ -153,6 +157,25 @@ def design_state(search: Search, chosen: np.ndarray) -> DesignState:
         eigenvalues=eigenvalues[some],
         vectors=V[:, some],
     )
+
+
+def promising(search: Search, chosen: np.ndarray) -> np.ndarray:
+    """The candidates to try: the chosen ones, in their order, and then what promises most: the
+    derivative of the criterion by the weight of each, tr(B N^-1 B^T) or tr(B N^-1 Q N^-1 B^T).
+    """
+    blocks = search.blocks
+    count, _, size = blocks.shape
+    others = np.setdiff1d(np.arange(count), chosen)
+    if search.criterion in WITH_INVERSE and len(others) > SHORTLIST:
+        weight = design_state(search, chosen).inverse
+        if search.criterion == "prediction":
+            weight = weight @ search.mean @ weight
+        flat = blocks.reshape(-1, size)
+        products = blocked_product(flat, weight) * flat
+        promise = products.reshape(count, -1).sum(axis=1)
+        order = np.argsort(-promise[others], kind="stable")
+        others = others[order[:SHORTLIST]]
+    return np.concatenate([chosen, others])
 
 
 def best_exchange(
@@ -188,7 +211,7 @@ def best_exchange(
 def value(N: Array, criterion: Criterion, mean: Array) -> Array:
     """The logarithm of the criterion (...) of information matrices N (..., L, L); larger is better.
 
-    mean (L, L): the mean information of a candidate, for "prediction".
+    mean (L, L): the mean information of a measurement in the workspace, for "prediction".
     """
     if criterion == "prediction":
         # NumPy 1 takes one matrix beside many for a stack of vectors.

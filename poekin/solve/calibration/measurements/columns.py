@@ -12,7 +12,11 @@ from ....formats.poses.layout import layout as pose_layout
 from ....formats.text.numbers import real
 
 _OF_POSES = ("poses", "eye-in-hand", "eye-to-hand")
-_LAYOUTS = "T00 ... T23, or x y z qw qx qy qz, or x y z, or x1 y1 z1 x2 ..., or distance"
+_LAYOUTS = (
+    "T00 ... T23, or x y z qw qx qy qz, or x y z roll pitch yaw, or x y z, or x1 y1 z1 x2 ..., or "
+    "distance"
+)
+_STEMS = ("q", "j", "joint", "joint_", "axis", "axis_", "theta")
 
 
 class ColumnLayout(NamedTuple):
@@ -27,7 +31,7 @@ class ColumnLayout(NamedTuple):
     pose: PoseLayout | None = None
 
 
-POSES = (pose_layout("16"), pose_layout("12"), pose_layout("quat", "wxyz"))
+POSES = (pose_layout("16"), pose_layout("12"), pose_layout("quat", "wxyz"), pose_layout("rpy"))
 """What the numbers of poses may be where no format is given: their names tell."""
 _OTHERS = (
     ColumnLayout(("px", "py", "pz"), ("points",)),
@@ -39,6 +43,21 @@ _OTHERS = (
 def numbered(count: int) -> tuple[str, ...]:
     """q1 ... qm, the names that coordinates have where a file does not use their own."""
     return tuple(f"q{i + 1}" for i in range(count))
+
+
+def coordinate_names(q_names: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
+    """Names that a file may have for the coordinates: q1 ... qm, the chain's own, and others that are
+    numbered from 1 or from 0.
+    """
+    count = len(q_names)
+    own = {name.casefold() for name in q_names}
+    found = [numbered(count), q_names]
+    for stem in _STEMS:
+        for start in (1, 0):
+            names = tuple(f"{stem}{i + start}" for i in range(count))
+            if own.isdisjoint(names):
+                found.append(names)
+    return tuple(dict.fromkeys(found))
 
 
 def of_poses(poses: tuple[PoseLayout, ...]) -> tuple[ColumnLayout, ...]:
@@ -70,21 +89,19 @@ def parse_header(
         if times > 1:
             raise InputError(f"{here}: the column {quote(word)} is there {times} times")
     given = set(words)
-    numbers = numbered(len(q_names))
-    for names in (q_names, numbers):
+    every = coordinate_names(q_names)
+    for names in (q_names, *every):
         if given > set(names):
             rest = given - set(names)
             for layout in (*fixed, _points(rest)):
                 if rest == set(layout.columns):
                     return names, layout
-    names = numbers
-    if len(given & set(q_names)) > len(given & set(numbers)):
-        names = q_names
+    names = max(every, key=lambda some: len(given.intersection(some)))
     missing = [name for name in names if name not in given]
     if missing:
         raise InputError(
             f"{here}: no column for the coordinate {quote(missing[0])}; expected {join_names(q_names)},"
-            f" or q1 ... q{len(q_names)}"
+            f" or q1 ... q{len(q_names)}; available: {join_names(words)}, of which rename= says what they are"
         )
     raise _fault([word for word in words if word not in names], here, fixed)
 
@@ -98,7 +115,7 @@ def _fault(
     if not rest:
         return InputError(f"{here}: no column of a measurement; expected {_expected(fixed)}")
     there = set(rest)
-    if formats := _formats(there):
+    if formats := _formats(there, fixed):
         return InputError(
             f"{here}: the columns {' '.join(pose_layout(formats[0]).columns)} make a pose of "
             f"{join_names(formats)}: format= (--format) says of which"
@@ -120,15 +137,19 @@ def _fault(
     close = suggest(rest[0], [name for layout in fixed for name in layout.columns], 3)
     return UnknownName(
         f"{here}: {quote(rest[0])} is neither a coordinate nor part of a measurement ({_expected(fixed)});"
-        f" {close}"
+        f" {close}; rename= says what it is, ignore=[{quote(rest[0])}] passes it over"
     )
 
 
-def _formats(words: set[str]) -> list[str]:
-    """Formats of poses whose three angles or parts of a vector are there, in whatever case."""
+def _formats(words: set[str], fixed: tuple[ColumnLayout, ...]) -> list[str]:
+    """Formats of poses, not among those that are expected, whose three angles or parts of a vector
+    are there, in whatever case.
+    """
     there = {word.casefold() for word in words}
+    expected = {layout.pose.format for layout in fixed if layout.pose}
     layouts = [x for x in map(pose_layout, ("rpy", *OF_CONTROLLERS)) if len(x.columns) == 6]
-    return [x.format for x in layouts if there.issuperset(map(str.casefold, x.columns))]
+    others = [x for x in layouts if x.format not in expected]
+    return [x.format for x in others if there.issuperset(map(str.casefold, x.columns))]
 
 
 def _expected(fixed: tuple[ColumnLayout, ...]) -> str:

@@ -5,9 +5,9 @@ observation.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.checks import finite
 from ....model.coordinates import coordinates
+from ..model.configurations import Repeats, average_repeats
 from . import columns
 from .columns import ColumnLayout
 from .header import NO_HEADER, SI, Convention, read_header
@@ -58,7 +59,7 @@ class MeasurementTable(NamedTuple):
     sources: list[str]
 
 
-def read(
+def read(  # noqa: PLR0913 - options by keyword
     path: Path,
     chain: Chain,
     *,
@@ -68,15 +69,20 @@ def read(
     format: PoseFormat | None = None,
     mm: bool | None = None,
     deg: bool | None = None,
+    rename: Mapping[str, str] | None = None,
+    repeats: Repeats = "keep",
     **known: Any,
 ) -> tuple[Array, Measurement]:
     """Joint readings and the measurements made at them, out of a CSV file with one a line.
 
-    The first line names the columns, in any order. Coordinates: by the chain's q_names, or q1 ...
-    qm in their order. Measurement: T00 ... T23 or T00 ... T33 (T, row by row), or x, y, z, qw, qx,
-    qy, qz (unit quaternion), or the columns of `format`: poses; x, y, z or px, py, pz: one point;
-    x1, y1, z1, x2, ...: several; distance. Numbers are in rad and m unless `format`, `mm`, `deg` or
-    the first line (`X [mm]`) says something else.
+    The first line names the columns, in any order; lines above it that begin with #, // or % are
+    passed over, and where numbers alone follow, the last of them is the first line. Coordinates: by
+    the chain's q_names, or q1 ... qm in their order (or j, joint, joint_, axis, axis_, theta, from 1
+    or 0). Measurement: T00 ... T23 or T00 ... T33 (T, row by row), or x, y, z, qw, qx, qy, qz (unit
+    quaternion, by its names in any order), or x, y, z, roll, pitch, yaw, or the columns of `format`:
+    poses; x, y, z or px, py, pz: one point; x1, y1, z1, x2, ...: several; distance. Numbers are in
+    rad and m unless `format`, `mm`, `deg` or the first line (`X [mm]`, `q1_deg`) says something else.
+    Commas, semicolons (with decimal commas), tabs or blanks are between.
 
     Parameters
     ----------
@@ -96,6 +102,11 @@ def read(
         Whether lengths are in mm: of the measurements, and of joints that slide.
     deg : bool, optional
         Whether angles are in degrees: joints, and those of `format`.
+    rename : mapping of str to str, optional
+        Names that are taken for those of columns in the file: {"x_t": "x [mm]"}.
+    repeats : {"keep", "average"}, default "keep"
+        Rows at the same configuration (to 1 mrad and 1 mm) stay as they are, and `calibrate` takes
+        them as clusters; or their mean is taken, as by `average_repeats`.
     **known : Any
         Other arguments of the kind of measurement: covariance, points, frame, centre, point,
         guess, board, camera.
@@ -123,7 +134,8 @@ def read(
     -----
     Accuracy: the numbers in the file. Source: none, a format of poekin's own.
     """
-    convention = Convention.of(format, mm, deg)
+    choice(repeats, get_args(Repeats), "repeats")
+    convention = Convention.of(format, mm, deg)._replace(rename=rename or {})
     table = read_table(
         path,
         chain,
@@ -132,7 +144,10 @@ def read(
         progress=progress,
         convention=convention,
     )
-    return table.q, make_measurement(table, kind, known)
+    made = make_measurement(table, kind, known)
+    if repeats == "average":
+        return average_repeats(table.q, made)
+    return table.q, made
 
 
 def read_table(

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ....errors import PoekinError
-from ....formats.poses.layout import LengthUnit, PoseLayout
+from ....errors import PoekinError, UnknownName, quote, suggest
+from ....formats.poses.layout import AngleUnit, LengthUnit, PoseLayout
 from ....formats.poses.layout import layout as pose_layout
 from ....formats.poses.read import said_units
 from ....formats.text import csv_header
 from ....formats.text.csv_header import Columns, Conversion, Heading
 from ....model.chain import Chain
-from .columns import POSES, ColumnLayout, numbered, of_poses, parse_header
+from .columns import POSES, ColumnLayout, coordinate_names, of_poses, parse_header
 
 
 class Convention(NamedTuple):
-    """Format of poses and units that a user said of a file; None where nothing was said."""
+    """Format of poses and units that a user said of a file, None where nothing was said; and the names
+    that columns of the file are to have.
+    """
 
     pose: PoseLayout | None = None
     mm: bool | None = None
     deg: bool | None = None
+    rename: Mapping[str, str] = MappingProxyType({})
 
     @classmethod
     def of(cls, format: Any, mm: bool | None, deg: bool | None) -> Convention:
@@ -40,7 +45,8 @@ class Convention(NamedTuple):
     def layouts(self) -> tuple[tuple[ColumnLayout, ...], ...]:
         """The layouts that a file may have, in the order in which they are tried."""
         if self.pose is None:
-            poses = [pose._replace(length=self.length) for pose in POSES]
+            angle: AngleUnit = "deg" if self.deg else "rad"
+            poses = [pose._replace(length=self.length, angle=angle) for pose in POSES]
             return (of_poses(tuple(poses)),)
         own, *others = of_poses((self.pose,))
         return (own,), tuple(others)
@@ -78,6 +84,10 @@ def read_header(
 
     Raises: UnknownName, InputError, that begin with `here`.
     """
+    for name in convention.rename:
+        if name not in words:
+            raise UnknownName(f"{here}: rename: no column {quote(name)}; {suggest(name, words)}")
+    words = [convention.rename.get(word, word) for word in words]
     faults: list[PoekinError] = []
     for layouts in convention.layouts():
         headings = _headings(words, chain, ignore, layouts)
@@ -98,7 +108,8 @@ def _headings(
 ) -> list[Heading]:
     """Names and units of a header's words, of those that a file may have."""
     measured = [name for layout in layouts for name in layout.columns]
-    known = dict.fromkeys((*chain.q_names, *numbered(chain.dof), *measured))
+    coordinates = [name for names in coordinate_names(chain.q_names) for name in names]
+    known = dict.fromkeys((*chain.q_names, *measured, *coordinates))
     headings = list(csv_header.headings(words, tuple(known)))
     for k, word in enumerate(words):
         if word in ignore:

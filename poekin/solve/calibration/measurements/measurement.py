@@ -8,11 +8,12 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ....errors import InputError, ShapeError, safe_repr
+from ....errors import InputError, ShapeError
 from ....groups import se3
 from ....groups.arrays import Array, poses
 from ....groups.vectors import translation_part
 from ....model.checks import finite, one_pose, read_only
+from ..model.covariances import covariances
 
 Rows = NDArray[np.integer]
 MeasurementKind = Literal["poses", "eye-in-hand", "eye-to-hand", "points", "distances"]
@@ -63,6 +64,21 @@ class Measurement:
 
     def __len__(self) -> int:
         return len(getattr(self, self._measured))
+
+    def __repr__(self) -> str:
+        noise = "noise unknown" if self.covariance is None else "noise given"
+        words = [f"{len(self)} of {self.width} numbers each", noise]
+        if self.rows is not None:
+            words.append("at rows of q")
+        names = " and ".join(frame.name for frame in self.unknown_frames)
+        if names:
+            words.append(f"{names} unknown")
+        return f"<{self.what}: {', '.join(words)}>"
+
+    @property
+    def measured(self) -> Array:
+        """Measured poses (N, 4, 4), positions (N, k, 3) or distances (N,), m, in the device's frame."""
+        return getattr(self, self._measured)
 
     @property
     def what(self) -> str:
@@ -221,13 +237,15 @@ class Measurement:
         """
         return self._with(unknown_frames=tuple(unknown_frames))
 
-    def with_measured(self, measured: Array) -> Measurement:
+    def with_measured(self, measured: Array, covariance: Array | None = None) -> Measurement:
         """Copy with other measured numbers of the same shape, unchecked.
 
         Parameters
         ----------
         measured : (N, 4, 4), (N, k, 3) or (N,) ndarray
             Poses, positions or distances, m, in the frame of those that they replace.
+        covariance : (N, width, width) ndarray, optional
+            Covariance of their errors, rad² and m²; by default as it was.
 
         Returns
         -------
@@ -238,7 +256,9 @@ class Measurement:
         -----
         Raises: nothing, it checks nothing.
         """
-        return self._with(**{self._measured: measured})
+        if covariance is None:
+            covariance = self.covariance
+        return self._with(**{self._measured: measured, "covariance": covariance})
 
     def scaled(self, unit: float) -> Measurement:
         """Copy of the measurements with all lengths in another unit, and without covariance.
@@ -345,51 +365,3 @@ def make_unknown_frame(name: str, said: ArrayLike | str | None) -> UnknownFrame:
             raise InputError(f"{name}: expected a pose, a name or None, got ''")
         return UnknownFrame(name, 6, shared=said)
     return UnknownFrame(name, 6, one_pose(said, name))
-
-
-def covariances(
-    values: ArrayLike | None,
-    count: int,
-    width: int,
-    what: str,
-) -> Array | None:
-    """Covariances (N, width, width) of one for all, or one each; None stays None.
-
-    Raises: ShapeError; InputError with the element that is not symmetric or not positive definite.
-    """
-    if values is None:
-        return None
-    C = finite(values, f"{what}: covariance")
-    if width == 1 and C.shape in ((), (count,)):
-        C = C.reshape(-1, 1, 1)
-    if C.shape not in ((width, width), (count, width, width), (1, width, width)):
-        raise ShapeError(
-            f"{what}: covariance: expected shape ({width}, {width}), or ({count}, {width}, {width})"
-            f", got {C.shape}"
-        )
-    C = C.reshape(-1, width, width)
-    for k, one in enumerate(C):
-        which = f"[{k}]" if len(C) > 1 else ""
-        _check_covariance(one, f"{what}: covariance{which}")
-    return np.broadcast_to(C, (count, width, width)).copy()
-
-
-def _check_covariance(C: Array, where: str) -> None:
-    """Raises: InputError for a matrix that is not symmetric and positive definite."""
-    variances = np.diag(C)
-    if not (variances > 0).all():
-        raise InputError(
-            f"{where} is not positive definite: its diagonal is {safe_repr(variances.tolist())}"
-        )
-    scale = np.sqrt(np.abs(variances))
-    even = C / np.outer(scale, scale)
-    skew = np.abs(even - even.T).max()
-    if skew > 1e-9:
-        raise InputError(f"{where} is not symmetric, by {skew:.3g} of its diagonal")
-    least = float(np.linalg.eigvalsh(0.5 * (even + even.T))[0])
-    # below the rounding of the factorisation there is no telling it from a singular one
-    if least <= 1e-14 * len(C):
-        raise InputError(
-            f"{where} is not positive definite: scaled to a unit diagonal, its least eigenvalue is "
-            f"{least:.3g}"
-        )

@@ -54,7 +54,7 @@ def parse_points(points: ArrayLike) -> Array:
     return body
 
 
-def _position(value: ArrayLike | None, name: str) -> Array | None:
+def position(value: ArrayLike | None, name: str) -> Array | None:
     """Three finite numbers, or None. Raises: InputError, ShapeError."""
     if value is None:
         return None
@@ -64,7 +64,7 @@ def _position(value: ArrayLike | None, name: str) -> Array | None:
     return position
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Points(Measurement):
     """Measured positions of one or several points of the tool.
 
@@ -164,7 +164,7 @@ class Points(Measurement):
         return [initial_guess.registration(nominal, measured)]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Distances(Measurement):
     """Measured distances d = |p(q) − c| of a point of the tool from a point that stands still.
 
@@ -216,9 +216,9 @@ class Distances(Measurement):
             raise ShapeError(f"d: expected distances (N,), got shape {d.shape}")
         for row in np.flatnonzero(d <= 0):
             raise InputError(f"d[{row}]: expected a distance above 0, got {d[row]:g}")
-        point = _position(numbers(self.point, "point"), "point")
-        centre = _position(self.centre, "centre")
-        guess = _position(self.guess, "guess")
+        point = position(numbers(self.point, "point"), "point")
+        centre = position(self.centre, "centre")
+        guess = position(self.guess, "guess")
         unknown: tuple[UnknownFrame, ...] = ()
         if centre is None:
             unknown = (UnknownFrame("centre", 3, guess),)

@@ -35,7 +35,7 @@ def pose_error_jacobian(T: Array, errors: Array, D: Array) -> Array:
     return np.concatenate([dw, dp], axis=1)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Poses(Measurement):
     """Measured poses of the tip in the base frame, T = f(q).
 
@@ -132,7 +132,7 @@ class _HandEye(Measurement):
         return [X, Z]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class EyeInHand(_HandEye):
     """Poses of a board that stands still, seen by a camera on the tip.
 
@@ -176,7 +176,7 @@ class EyeInHand(_HandEye):
     frames: ClassVar = {"T_base_board": "board", "T_tip_camera": "camera"}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class EyeToHand(_HandEye):
     """Poses of a board on the tip, seen by a camera that stands still.
 

@@ -1,16 +1,22 @@
-"""Configurations of readings: which rows of q are the same, but for what joints scatter by; and the
-folds that they are drawn into.
+"""Configurations of readings: which rows of q are the same, but for what joints scatter by; the
+folds that they are drawn into, and the mean of what was measured at each.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ....errors import InputError, ShapeError, safe_repr
+from ....groups import se3
 from ....groups.arrays import Array
+from ....groups.vectors import rotation_part, translation_part
+from ....model.checks import finite
+from ..measurements.measurement import Measurement, Rows, rows_of
 
+Repeats = Literal["keep", "average"]
 NEAR = 1e-3
 """rad or m: readings that differ by less, one by one, are of one configuration."""
 
@@ -51,3 +57,84 @@ class Folds(NamedTuple):
         for k, drawn in enumerate(np.array_split(order, self.count)):
             found[drawn] = k
         return found[label]
+
+
+def average_repeats(q: Any, measurements: Measurement) -> tuple[Array, Measurement]:
+    """Means of the measurements at readings that are the same to 1 mrad and 1 mm.
+
+    `calibrate` takes repeated rows as they are: it holds them out together, and its intervals do
+    not count them as independent. The means make a large file small, and hide the scatter.
+
+    Parameters
+    ----------
+    q : (N, m) array_like
+        Joint readings, rad or m.
+    measurements : Poses, EyeInHand, EyeToHand, Points or Distances
+        Measurements at rows of q.
+
+    Returns
+    -------
+    q : (K, m) ndarray
+        Mean readings of each configuration, in order of first appearance.
+    measurements : Measurement
+        The mean of what was measured at each, in its frame, and its covariance where one was given.
+
+    Raises
+    ------
+    InputError
+        If `measurements` is none, or a reading is not finite.
+    ShapeError
+        If q has no row for a measurement.
+
+    Notes
+    -----
+    Accuracy: rotations are the projected arithmetic mean. Source: Moakher 2002, "Means and
+    averaging in the group of rotations" (SIAM J. Matrix Analysis 24).
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> twice = pk.calibration.Points([[1, 0, 0], [1.002, 0, 0], [2, 0, 0]])
+    >>> q, points = pk.calibration.average_repeats([[0.1], [0.1], [0.5]], twice)
+    >>> q.shape, points.p[:, 0, 0].round(6).tolist()
+    ((2, 1), [1.001, 2.0])
+    """
+    if not isinstance(measurements, Measurement):
+        raise InputError(
+            "measurements: expected Poses, Points, Distances, EyeInHand or EyeToHand, got "
+            f"{safe_repr(measurements)}"
+        )
+    q = finite(q, "q")
+    rows = rows_of(measurements, len(measurements))
+    if q.ndim != 2 or rows.max(initial=-1) >= len(q):
+        raise ShapeError(
+            f"q: expected readings (N, m) with a row for each of {len(measurements)} {measurements.what}, "
+            f"got shape {q.shape}"
+        )
+    return _averaged(q, rows, measurements)
+
+
+def _averaged(q: Array, rows: Rows, s: Measurement) -> tuple[Array, Measurement]:
+    label = configurations(q[rows])
+    _, first, counts = np.unique(label, return_index=True, return_counts=True)
+
+    def mean(values: Array) -> Array:
+        sums = np.zeros((len(counts), *values.shape[1:]))
+        np.add.at(sums, label, values)
+        return sums / counts.reshape(-1, *[1] * (values.ndim - 1))
+
+    measured = mean(s.measured)
+    if measured.shape[1:] == (4, 4):
+        measured = _projected(measured)
+    C = None
+    if s.covariance is not None:
+        # of a mean of k independent ones: the sum of covariances / k^2
+        C = mean(s.covariance) / counts[:, None, None]
+    means = s.subset(first).with_rows(None).with_measured(measured, C)
+    return mean(q[rows]), means
+
+
+def _projected(T: Array) -> Array:
+    """Poses whose rotations are those nearest to the matrices in T (K, 4, 4)."""
+    U, _, Vt = np.linalg.svd(rotation_part(T))
+    return se3.pose(U @ Vt, translation_part(T))

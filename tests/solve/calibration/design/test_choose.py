@@ -20,8 +20,14 @@ from poekin.solve.calibration import (
     identify,
 )
 from poekin.solve.calibration.design.choice import Choice, DesignMetrics, _ratio
-from poekin.solve.calibration.design.choose import _enough, choose_poses, design_metrics
+from poekin.solve.calibration.design.choose import choose_poses
 from poekin.solve.calibration.design.exchange import CRITERIA
+from poekin.solve.calibration.design.metrics import (
+    Design,
+    check_enough,
+    design_metrics,
+    root_information,
+)
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.messages import says
 
@@ -74,7 +80,7 @@ def test_thirty_of_2000_beat_the_median_random_choice_by_half_in_the_noise_ampli
 ):
     arm = pk.load(name).chain(tip=tip)
     example = "poses" if kind == "poses" else Points([[0, 0, 0]], points=TOOL)
-    choice = choose_poses(arm, 30, 2000, measurements=example)
+    choice = choose_poses(arm, 30, 2000, measurements=example, criterion="amplification")
     assert choice.criterion_improvement >= 1.5
     assert choice.metrics.amplification >= choice.random_best.amplification
 
@@ -162,7 +168,7 @@ def test_what_no_candidate_shows_is_said_and_the_rest_is_chosen_for(puma, candid
 
 
 def test_it_says_in_a_sentence_by_how_much_it_is_better(puma, candidates):
-    choice = choose_poses(puma, 20, candidates, n_random=7)
+    choice = choose_poses(puma, 20, candidates, criterion="amplification", n_random=7)
     said = str(choice)
     assert said.startswith("20 of 300 configurations for 30 parameters: noise amplification index ")
     assert (
@@ -170,7 +176,7 @@ def test_it_says_in_a_sentence_by_how_much_it_is_better(puma, candidates):
         in said
     )
     assert f"noise leaves {1 / choice.improvement.prediction:.2f} times the error" in said
-    assert "noise leaves" not in str(choose_poses(puma, 20, candidates, criterion="prediction"))
+    assert "noise leaves" not in str(choose_poses(puma, 20, candidates))
 
 
 def test_chosen_joints_and_parameters_need_fewer_configurations(puma, candidates):
@@ -226,7 +232,7 @@ WRONG = {
     "criterion": (
         {"criterion": "E"},
         InputError,
-        "criterion: expected 'amplification', 'O1', 'condition', 'smallest' or 'prediction', got 'E'",
+        "criterion: expected 'prediction', 'O1', 'amplification', 'condition' or 'smallest', got 'E'",
     ),
     "none": (
         {"candidates": None},
@@ -333,33 +339,44 @@ def test_a_random_choice_that_shows_nothing_is_beaten_without_end(a, b, ratio):
     assert _ratio(a, b) == ratio
 
 
+def design(blocks):  # type: ignore[no-untyped-def]
+    """A design of these blocks, with nothing measured before, that predicts what it measures."""
+    return Design(blocks, blocks[:0], root_information(blocks))
+
+
 def shows(*directions, size=3, times=2):
-    """The blocks of candidates each of which sees one direction, in several rows."""
+    """A design of candidates each of which sees one direction, in several rows."""
     blocks = np.zeros((len(directions), times, size))
     blocks[np.arange(len(directions)), :, directions] = 1.0
-    return blocks
+    return design(blocks)
 
 
 @pytest.mark.parametrize("n", [1, 4])
 def test_configurations_are_needed_until_all_that_is_seen_anywhere_is_seen(n):
     """Of five directions, each candidate sees one."""
     with pytest.raises(InputError, match="expected at least 5, better three times as many"):
-        _enough(shows(0, 1, 2, 3, 4, 0, size=5), n)
+        check_enough(shows(0, 1, 2, 3, 4, 0, size=5), n)
 
 
 @pytest.mark.parametrize("n, needed", [(1, 3), (2, 3), (3, None)])
 def test_as_many_configurations_are_needed_as_show_the_last_direction(n, needed):
     blocks = shows(0, 0, 1, 2, 1)
     if needed is None:
-        _enough(blocks, n)
+        check_enough(blocks, n)
     else:
         with pytest.raises(InputError, match=f"n: {n} configurations of 2 equations each are too few for 3 parameters: "
                            f"expected at least {needed}, better three times as many"):  # fmt: skip
-            _enough(blocks, n)
+            check_enough(blocks, n)
 
 
 def test_a_choice_that_leaves_a_direction_unseen_is_worth_nothing():
-    assert design_metrics(np.zeros((4, 3, 3)), np.array([0, 1])) == (0, np.inf, 0, 0, np.inf)
+    assert design_metrics(design(np.zeros((4, 3, 3))), np.array([0, 1])) == (
+        0,
+        np.inf,
+        0,
+        0,
+        np.inf,
+    )
     blocks = shows(0, 0, 1, 2)
     for rows in ([0], [0, 1], [0, 2], [1, 2]):
         assert design_metrics(blocks, np.array(rows)) == (0, np.inf, 0, 0, np.inf)
@@ -411,11 +428,11 @@ def test_where_nothing_is_said_a_hundred_random_choices_are_drawn_by_the_seed_0(
     q = np.random.default_rng(0).uniform(-1, 1, (20, 2))
     said: tuple[dict[str, Any], ...] = (
         {},
-        {"n_random": 100, "seed": 0, "criterion": "amplification"},
+        {"n_random": 100, "seed": 0, "criterion": "prediction"},
         {"seed": 1},
     )
     found, same, other = (choose_poses(arm, 6, q, **options) for options in said)
-    assert (found.n_random, found.criterion) == (100, "amplification")
+    assert (found.n_random, found.criterion) == (100, "prediction")
     assert (found.metrics, found.random_median, found.random_best) == (
         same.metrics,
         same.random_median,

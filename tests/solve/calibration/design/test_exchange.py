@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from poekin.solve.calibration.design import exchange as search
-from poekin.solve.calibration.design.exchange import CRITERIA, exchange, greedy
+from poekin.solve.calibration.design.exchange import CRITERIA, exchange
+from poekin.solve.calibration.design.greedy import greedy
 
 EPS = np.finfo(float).eps
 EXTREMES = ("amplification", "condition", "smallest")
@@ -25,6 +26,11 @@ def criterion(blocks, chosen, by):  # type: ignore[no-untyped-def]
         "amplification": s[-1] ** 2 / s[0], "O1": float(np.prod(s ** (1 / len(s)))),
         "condition": s[-1] / s[0], "smallest": s[-1],
     }[by]  # fmt: skip
+
+
+def nothing(blocks):  # type: ignore[no-untyped-def]
+    """The rows of what was measured before, where nothing was."""
+    return np.empty((0, blocks.shape[2]))
 
 
 @st.composite
@@ -63,7 +69,7 @@ def test_no_exchange_is_worth_more_than_it_promises(by, case, place):
     blocks, n = case
     chosen = np.array(greedy(blocks, n))
     mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
-    of = search.Search(blocks, by, mean)
+    of = search.Search(blocks, by, mean, nothing(blocks))
     promised = search.upper_bound(of, search.design_state(of, chosen), blocks[chosen[place % n]])
     kept = np.delete(chosen, place % n)
     for j in set(range(len(blocks))) - set(chosen):
@@ -221,7 +227,7 @@ def test_the_progress_of_a_search_of_many_steps_stays_a_choice_s_length_ahead_of
     exchanges, 1 idle step.
     """
     blocks, said = np.arange(1.0, 31.0)[:, None, None], []
-    monkeypatch.setattr(search, "greedy", lambda blocks, n, tick: tick() or [0])
+    monkeypatch.setattr(search, "greedy", lambda blocks, n, tick, given: tick() or [0])
     monkeypatch.setattr(
         search,
         "best_exchange",
@@ -241,7 +247,7 @@ def test_the_best_exchange_is_the_best_of_all_however_many_are_valued_together(
     mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
     for seed in range(8):
         chosen = np.random.default_rng(seed).choice(90, 4, replace=False)
-        of = search.Search(blocks, by, mean)
+        of = search.Search(blocks, by, mean, nothing(blocks))
         state = search.design_state(of, chosen)
         others = [j for j in range(90) if j not in chosen]
         values = [
@@ -277,7 +283,7 @@ def test_where_nothing_can_be_exchanged_each_place_is_looked_at_once():
 def test_what_promises_more_on_all_eigenvectors_is_as_good_as_it_promises(by):
     blocks = np.random.default_rng(11).normal(size=(40, 2, 6))
     chosen = np.arange(5)
-    of = search.Search(blocks, by, np.eye(6))
+    of = search.Search(blocks, by, np.eye(6), nothing(blocks))
     state = search.design_state(of, chosen)
     promised = search.upper_bound(of, state, blocks[2])
     others = np.flatnonzero(promised[5:] > state.value) + 5
@@ -285,3 +291,44 @@ def test_what_promises_more_on_all_eigenvectors_is_as_good_as_it_promises(by):
     for j in others:
         true = search.design_state(of, np.array([0, 1, j, 3, 4])).value
         assert promised[j] == pytest.approx(true, abs=1e-9)
+
+
+@pytest.mark.parametrize("by", search.WITH_INVERSE)
+def test_a_short_list_holds_what_promises_most_and_is_made_anew_until_nothing_changes(
+    by, monkeypatch
+):
+    blocks = np.random.default_rng(2).normal(size=(60, 2, 6))
+    mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
+    chosen = np.array([3, 41, 7, 20])
+    of = search.Search(blocks, by, mean, nothing(blocks))
+    monkeypatch.setattr(search, "SHORTLIST", 10)
+    listed = search.promising(of, chosen)
+    assert listed[:4].tolist() == chosen.tolist()
+    J = blocks[chosen].reshape(-1, 6)
+    N = J.T @ J
+    eps = 1e-6
+    # the criterion's derivative by the weight of each candidate, by differences
+    gains = [float(search.value(N + eps * B.T @ B, by, mean)) for B in blocks]
+    order = [j for j in np.argsort(gains)[::-1] if j not in chosen]
+    assert listed[4:].tolist() == order[:10]
+    # what the list leaves out at first is found all the same
+    short = criterion(blocks, exchange(blocks, 4, by), by)
+    monkeypatch.setattr(search, "LISTS", 1)
+    assert criterion(blocks, exchange(blocks, 4, by), by) <= short
+
+
+@pytest.mark.parametrize("by", CRITERIA)
+def test_what_was_measured_before_counts(by):
+    """Of three directions two were seen before: the candidate that sees the third is taken."""
+    blocks = np.eye(3)[[0, 0, 1, 2, 1]][:, None] * 2.0
+    before = np.eye(3)[:2] * 2.0
+    assert greedy(blocks, 1, given=before) == [3]
+    assert exchange(blocks, 1, by, given=before).tolist() == [3]
+
+
+def test_what_is_predicted_may_be_elsewhere_than_what_is_measured():
+    blocks = np.eye(2)[[0, 1, 0, 1, 0, 1]][:, None]
+    for k, weights in enumerate(([100.0, 1.0], [1.0, 100.0])):
+        found = exchange(blocks, 4, mean=np.diag(weights))
+        # of each direction there are three: the one that counts is measured three times
+        assert np.sum(found % 2 == k) == 3

@@ -175,7 +175,8 @@ POSE = f"q1,{T_COLUMNS}"
             "distance\n1\n",
             {},
             InputError,
-            "a.csv:1: no column for the coordinate 'q1'; expected 'shoulder', or q1 ... q1",
+            "a.csv:1: no column for the coordinate 'q1'; expected 'shoulder', or q1 ... q1; available: 'distance', "
+            "of which rename= says what they are",
         ),
         (
             "q1\n1\n",
@@ -183,7 +184,7 @@ POSE = f"q1,{T_COLUMNS}"
             InputError,
             (
                 "a.csv:1: no column of a measurement; expected T00 ... T23, or x y z qw qx qy qz, or "
-                "x y z, or x1 y1 z1 x2 ..., or distance"
+                "x y z roll pitch yaw, or x y z, or x1 y1 z1 x2 ..., or distance"
             ),
         ),
         (
@@ -192,8 +193,8 @@ POSE = f"q1,{T_COLUMNS}"
             UnknownName,
             (
                 "a.csv:1: 'force' is neither a coordinate nor part of a measurement (T00 ... T23, or "
-                "x y z qw qx qy qz, or x y z, or x1 y1 z1 x2 ..., or distance); available: 'T00', "
-                "'T01', 'T02' and 39 more"
+                "x y z qw qx qy qz, or x y z roll pitch yaw, or x y z, or x1 y1 z1 x2 ..., or distance); "
+                "available: 'T00', 'T01', 'T02' and 45 more; rename= says what it is, ignore=['force'] passes it over"
             ),
         ),
         (
@@ -202,8 +203,8 @@ POSE = f"q1,{T_COLUMNS}"
             UnknownName,
             (
                 "a.csv:1: 'distanse' is neither a coordinate nor part of a measurement (T00 ... T23, "
-                "or x y z qw qx qy qz, or x y z, or x1 y1 z1 x2 ..., or distance); did you mean "
-                "'distance'?"
+                "or x y z qw qx qy qz, or x y z roll pitch yaw, or x y z, or x1 y1 z1 x2 ..., or distance); "
+                "did you mean 'distance'?; rename= says what it is, ignore=['distanse'] passes it over"
             ),
         ),
         (
@@ -403,7 +404,7 @@ def test_the_coordinates_that_are_missing_are_those_of_the_names_that_are_there(
     for header, missing in (("shoulder,distance", "slide"), ("q1,distance", "q2"), ("distance", "q1"),
                             ("shoulder,q1,distance", "q2")):  # fmt: skip
         with pytest.raises(InputError, match=f"no column for the coordinate '{missing}'; expected 'shoulder', 'slide', "
-                           "or q1 ... q2$"):  # fmt: skip
+                           "or q1 ... q2; available: "):  # fmt: skip
             data.read(file(tmp_path, f"{header}\n"), TWO)
 
 
