@@ -3,6 +3,10 @@
 from .apply import apply
 from .calibrate import calibrate
 from .calibration import Calibration, load
+from .circles.axis_fit import AxisFit
+from .circles.from_circles import from_circles
+from .circles.from_circles_result import FromCircles
+from .circles.joint_sweep import JointSweep
 from .compensation import Command
 from .design.choice import Choice, DesignMetrics
 from .design.choose import choose_poses
@@ -26,6 +30,7 @@ from .terms.conditions import Conditions
 from .terms.term import Term
 
 __all__ = [
+    "AxisFit",
     "Calibration",
     "Choice",
     "Command",
@@ -35,8 +40,10 @@ __all__ = [
     "Distances",
     "EyeInHand",
     "EyeToHand",
+    "FromCircles",
     "FromFk",
     "Identification",
+    "JointSweep",
     "Measurement",
     "NoiseEstimate",
     "ObservabilityIndices",
@@ -53,6 +60,7 @@ __all__ = [
     "apply",
     "calibrate",
     "choose_poses",
+    "from_circles",
     "from_fk",
     "identify",
     "load",
