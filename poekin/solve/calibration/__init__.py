@@ -21,6 +21,7 @@ from .measurements.data import read, write
 from .measurements.measurement import Measurement
 from .measurements.points import Distances, Points
 from .measurements.poses import EyeInHand, EyeToHand, Poses
+from .measurements.separations import Separations
 from .measurements.simulated import Simulated, simulated
 from .model.parameters import Parameter
 from .model.residuals import Residuals
@@ -53,6 +54,7 @@ __all__ = [
     "PoseErrors",
     "Poses",
     "Residuals",
+    "Separations",
     "Simulated",
     "Term",
     "TermGain",

@@ -35,6 +35,10 @@ TRUE = {
     "points in a device's frame": (
         lambda: Points((AT - X[:3, 3]) @ X[:3, :3], TOOL, frame="unknown"), [X],
     ),
+    "points that are not known": (lambda: Points(AT, None), list(TOOL)),
+    "a point that is not known in a device's frame": (
+        lambda: Points((AT[:, :1] - X[:3, 3]) @ X[:3, :3], "tip", frame="unknown"), [X, TOOL[0]],
+    ),
     "distances": (lambda: Distances(np.linalg.norm(AT[:, 0] - CENTRE, axis=1), CENTRE, TOOL[0]), []),
     "distances from somewhere": (lambda: Distances(np.linalg.norm(AT[:, 0] - CENTRE, axis=1), None, TOOL[0]), [CENTRE]),
     "EyeInHand": (lambda: EyeInHand(pk.se3.inverse(X) @ T @ Z), [X, Z]),
@@ -164,6 +168,21 @@ BAD: dict[str, tuple] = {
         lambda: Points(AT[:, 0], [0.0, np.inf, 0.0]),
         InputError,
         "points[1]: expected a finite number, got inf",
+    ),
+    "points without a name": (
+        lambda: Points(AT, ""),
+        InputError,
+        "points: expected positions, a name or None, got ''",
+    ),
+    "unknown points of four numbers": (
+        lambda: Points(np.ones((12, 2, 4)), None),
+        ShapeError,
+        "p: expected positions (N, 2, 3), of 2 points, got shape (12, 2, 4)",
+    ),
+    "unknown points in a row": (
+        lambda: Points(np.ones(12), None),
+        ShapeError,
+        "p: expected positions (N, 1, 3), of 1 points, got shape (12,)",
     ),
     "positions of four axes": (
         lambda: Points(AT[None], TOOL),
