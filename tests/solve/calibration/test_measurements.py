@@ -30,6 +30,11 @@ AT = TOOL @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
 CENTRE = np.array([1.5, -0.4, 0.3])
 TRUE = {
     "Poses": (lambda: Poses(T), []),
+    "poses in a device's frame": (lambda: Poses(pk.se3.inverse(X) @ T, frame="unknown"), [X]),
+    "poses of a probe": (lambda: Poses(T @ Z, tool="unknown"), [Z]),
+    "poses of a probe in a device's frame": (
+        lambda: Poses(pk.se3.inverse(X) @ T @ Z, frame="unknown", tool="unknown"), [X, Z],
+    ),
     "one point": (lambda: Points(AT[:, 0], TOOL[0]), []),
     "two points": (lambda: Points(AT, TOOL), []),
     "points in a device's frame": (
@@ -228,6 +233,16 @@ BAD: dict[str, tuple] = {
         lambda: Points(AT[:, 0], frame="device"),  # type: ignore[arg-type]
         InputError,
         "frame: expected 'base' or 'unknown', got 'device'",
+    ),
+    "a frame of poses": (
+        lambda: Poses(T, frame="camera"),  # type: ignore[arg-type]
+        InputError,
+        "frame: expected 'base' or 'unknown', got 'camera'",
+    ),
+    "a tool of poses": (
+        lambda: Poses(T, tool="probe"),  # type: ignore[arg-type]
+        InputError,
+        "tool: expected 'tip' or 'unknown', got 'probe'",
     ),
     "a negative distance": (
         lambda: Distances([1.0, -1.0]),
