@@ -66,7 +66,7 @@ Centre = Annotated[
 ]
 Frame = Annotated[
     str | None,
-    Option("--frame", help="base, or unknown: points stand in a device's own frame."),
+    Option("--frame", help="base, or unknown: points or poses stand in a device's own frame."),
 ]
 Parameters = Annotated[Texts, Option("--parameters", help=f"{PARAMETERS} Default: screws,home.")]
 Joints = Annotated[

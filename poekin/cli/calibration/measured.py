@@ -43,7 +43,7 @@ class Measured(NamedTuple):
     sources: list[str]
 
 
-_TAKES = {"points": ("point", "frame"), "distances": ("point", "centre")}
+_TAKES = {"points": ("point", "frame"), "poses": ("frame",), "distances": ("point", "centre")}
 """The options that say something of measurements of a kind."""
 
 

@@ -3,6 +3,10 @@
 from .apply import apply
 from .calibrate import calibrate
 from .calibration import Calibration, load
+from .circles.axis_fit import AxisFit
+from .circles.from_circles import from_circles
+from .circles.from_circles_result import FromCircles
+from .circles.joint_sweep import JointSweep
 from .compensation import Command
 from .design.choice import Choice, DesignMetrics
 from .design.choose import choose_poses
@@ -18,6 +22,7 @@ from .measurements.data import read, write
 from .measurements.measurement import Measurement
 from .measurements.points import Distances, Points
 from .measurements.poses import EyeInHand, EyeToHand, Poses
+from .measurements.separations import Separations
 from .measurements.simulated import Simulated, simulated
 from .model.configurations import average_repeats
 from .model.parameters import Parameter
@@ -28,6 +33,7 @@ from .terms.conditions import Conditions
 from .terms.term import Term
 
 __all__ = [
+    "AxisFit",
     "Calibration",
     "Choice",
     "Command",
@@ -37,8 +43,10 @@ __all__ = [
     "Distances",
     "EyeInHand",
     "EyeToHand",
+    "FromCircles",
     "FromFk",
     "Identification",
+    "JointSweep",
     "Measurement",
     "NoiseEstimate",
     "ObservabilityIndices",
@@ -48,6 +56,7 @@ __all__ = [
     "PoseErrors",
     "Poses",
     "Residuals",
+    "Separations",
     "Simulated",
     "Term",
     "TermGain",
@@ -58,6 +67,7 @@ __all__ = [
     "average_repeats",
     "calibrate",
     "choose_poses",
+    "from_circles",
     "from_fk",
     "identify",
     "load",

@@ -473,7 +473,10 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(
         ),
         (["--point", "0,0,1"], "--point: expected with points or distances only, got poses"),
         (["--centre", "0,0,1"], "--centre: expected with distances only, got poses"),
-        (["--frame", "unknown"], "--frame: expected with points only, got poses"),
+        (
+            ["--kind", "eye-in-hand", "--frame", "unknown"],
+            "--frame: expected with points or poses only, got eye-in-hand",
+        ),
         (
             ["--sigma-angle", "1e-3"],
             "--sigma-angle and --sigma-length: of measured poses, both expected or neither",

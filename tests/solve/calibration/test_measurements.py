@@ -30,10 +30,19 @@ AT = TOOL @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
 CENTRE = np.array([1.5, -0.4, 0.3])
 TRUE = {
     "Poses": (lambda: Poses(T), []),
+    "poses in a device's frame": (lambda: Poses(pk.se3.inverse(X) @ T, frame="unknown"), [X]),
+    "poses of a probe": (lambda: Poses(T @ Z, tool="unknown"), [Z]),
+    "poses of a probe in a device's frame": (
+        lambda: Poses(pk.se3.inverse(X) @ T @ Z, frame="unknown", tool="unknown"), [X, Z],
+    ),
     "one point": (lambda: Points(AT[:, 0], TOOL[0]), []),
     "two points": (lambda: Points(AT, TOOL), []),
     "points in a device's frame": (
         lambda: Points((AT - X[:3, 3]) @ X[:3, :3], TOOL, frame="unknown"), [X],
+    ),
+    "points that are not known": (lambda: Points(AT, None), list(TOOL)),
+    "a point that is not known in a device's frame": (
+        lambda: Points((AT[:, :1] - X[:3, 3]) @ X[:3, :3], "tip", frame="unknown"), [X, TOOL[0]],
     ),
     "distances": (lambda: Distances(np.linalg.norm(AT[:, 0] - CENTRE, axis=1), CENTRE, TOOL[0]), []),
     "distances from somewhere": (lambda: Distances(np.linalg.norm(AT[:, 0] - CENTRE, axis=1), None, TOOL[0]), [CENTRE]),
@@ -165,6 +174,21 @@ BAD: dict[str, tuple] = {
         InputError,
         "points[1]: expected a finite number, got inf",
     ),
+    "points without a name": (
+        lambda: Points(AT, ""),
+        InputError,
+        "points: expected positions, a name or None, got ''",
+    ),
+    "unknown points of four numbers": (
+        lambda: Points(np.ones((12, 2, 4)), None),
+        ShapeError,
+        "p: expected positions (N, 2, 3), of 2 points, got shape (12, 2, 4)",
+    ),
+    "unknown points in a row": (
+        lambda: Points(np.ones(12), None),
+        ShapeError,
+        "p: expected positions (N, 1, 3), of 1 points, got shape (12,)",
+    ),
     "positions of four axes": (
         lambda: Points(AT[None], TOOL),
         ShapeError,
@@ -209,6 +233,16 @@ BAD: dict[str, tuple] = {
         lambda: Points(AT[:, 0], frame="device"),  # type: ignore[arg-type]
         InputError,
         "frame: expected 'base' or 'unknown', got 'device'",
+    ),
+    "a frame of poses": (
+        lambda: Poses(T, frame="camera"),  # type: ignore[arg-type]
+        InputError,
+        "frame: expected 'base' or 'unknown', got 'camera'",
+    ),
+    "a tool of poses": (
+        lambda: Poses(T, tool="probe"),  # type: ignore[arg-type]
+        InputError,
+        "tool: expected 'tip' or 'unknown', got 'probe'",
     ),
     "a negative distance": (
         lambda: Distances([1.0, -1.0]),

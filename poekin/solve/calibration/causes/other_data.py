@@ -44,6 +44,9 @@ def other_rows(q: Array, sets: Sequence[Measurement]) -> Iterator[Other]:
     for by in _SHIFTS:
         moved = []
         for s in sets:
+            if not s.sees_arm:
+                moved.append(s)
+                continue
             rows = rows_of(s, count) + by
             kept = np.flatnonzero((rows >= 0) & (rows < count))
             moved.append(s.subset(kept).with_rows(rows[kept]))
@@ -56,7 +59,7 @@ def other_rows(q: Array, sets: Sequence[Measurement]) -> Iterator[Other]:
 def other_numbers(s: Measurement) -> Iterator[Named]:
     """The set's own numbers taken otherwise."""
     if isinstance(s, Points):
-        for order in _orders(len(s.points)):
+        for order in _orders(s.p.shape[1]):
             named = ", ".join(str(i + 1) for i in order)
             yield f"the points in the order {named}", s.with_measured(s.p[:, order])
     if not s.angular:

@@ -199,7 +199,7 @@ def _examples(measurements: Any) -> list[Measurement]:
         return [tip[measurements]]
     sets: Any = [measurements] if isinstance(measurements, Measurement) else measurements
     several = isinstance(sets, (list, tuple)) and len(sets)
-    if not several or not all(isinstance(s, Measurement) for s in sets):
+    if not several or not all(isinstance(s, Measurement) and s.sees_arm for s in sets):
         raise InputError(
             "measurements: expected 'poses', 'points', or an example of Poses, Points, Distances, "
             f"EyeInHand or EyeToHand, or a list of them, got {safe_repr(measurements)}"
@@ -212,8 +212,10 @@ def _rough_frames(sets: list[Measurement]) -> list[Array]:
     frames = []
     for s in sets:
         for unknown in s.unknown_frames:
-            if unknown.guess is None and not isinstance(s, Points):
+            if unknown.guess is None and not (isinstance(s, Points) and unknown.size == 6):
                 name = unknown.name.rpartition("_")[2]
+                if isinstance(s, Points):
+                    name = "points"
                 raise InputError(
                     f"measurements: {s.what}: expected {name}=, roughly where it is: nothing is "
                     "measured yet"

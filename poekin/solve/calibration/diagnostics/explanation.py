@@ -167,7 +167,8 @@ def explained(problem: Problem, k: int) -> Explanation | None:
     base, *moving = own.frame_values(fit.p).values()
     tool = se3.exp(fit.p[: own.model_size])
     for T in moving:
-        tool = tool @ T
+        if T.ndim == 2:  # not a point of the tool
+            tool = tool @ T
     moved = size_of(tool)
     if s.width <= 3:  # one point does not tell how the tool is turned
         moved = Size(moved.length)

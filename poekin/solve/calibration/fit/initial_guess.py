@@ -188,6 +188,43 @@ def mean_pose(T: Array) -> Array:
     return se3.pose(turned.value, placed.value)
 
 
+def mean_position(p: Array) -> Array:
+    """The mean (3,) of positions (N, 3), m, by weights of sum 1."""
+    floor = _rounding(np.abs(p).max())
+    return reweighted(partial(_mean_place, p), len(p), 1, floor).value
+
+
+def device_and_points(T: Array, p: Array) -> tuple[Array, Array]:
+    """X = T_base_device (4, 4) and points y (k, 3) in the tip frame with X p = T y, of poses T (N, 4, 4)
+    of the tip and measured positions p (N, k, 3), m.
+
+    R_X p + t_X - R_T y = t_T is linear in all; the rotation nearest to the matrix that solves it is
+    kept, and the rest solved again.
+
+    Raises: InputError for fewer equations than unknowns. Source: as of `hand_eye`, its second half;
+    Kabsch 1976 for the rotation.
+    """
+    N, k, _ = p.shape
+    unknown = 12 + 3 * k
+    _check_count(N, -(-unknown // (3 * k)), "a device's frame and of points of the tool")
+    middle = p.mean(axis=(0, 1))
+    p = p - middle
+    of_points = np.kron(np.eye(k), -rotation_part(T))
+    of_origin = np.tile(np.eye(3), (N, k, 1))
+    of_rotation = np.kron(np.eye(3), p[:, :, None])
+    blocks = [of_rotation.reshape(N, 3 * k, 9), of_origin, of_points]
+    design = np.concatenate(blocks, axis=2, dtype=float)
+    goal = np.tile(translation_part(T), k)
+    floor = _rounding(np.abs(p).max(), np.abs(goal).max())
+    solve = partial(_linear, design, goal)
+    M = reweighted(solve, N, 3, floor).value[:9]
+    R = _rotation(M.reshape(3, 3))
+    turned = p @ R.T
+    solve = partial(_linear, design[..., 9:], goal - turned.reshape(N, -1))
+    t, y = np.split(reweighted(solve, N, 3, floor).value, [3])
+    return se3.pose(R, t - R @ middle), y.reshape(k, 3)
+
+
 def _rounding(*lengths: float) -> float:
     """Residual in m that is rounding, of measured lengths."""
     return _ROUNDING * max(*map(float, lengths), _SHORT)

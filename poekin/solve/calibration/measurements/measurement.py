@@ -53,6 +53,8 @@ class Measurement:
         Number of them that are angles.
     unknown_frames : tuple of UnknownFrame
         Frames and points that are estimated jointly.
+    sees_arm : bool
+        Whether the measurements depend on the pose of the arm.
     """
 
     rows: Any
@@ -60,7 +62,9 @@ class Measurement:
     width: int
     angular: int = 0
     unknown_frames: tuple[UnknownFrame, ...] = ()
+    sees_arm: bool = True
     _measured: str = "T"  # the attribute that holds the measured numbers
+    _others: tuple[str, ...] = ()  # attributes that hold more of each measurement
 
     def __len__(self) -> int:
         return len(getattr(self, self._measured))
@@ -193,7 +197,7 @@ class Measurement:
             If there is no measurement of such an index.
         """
         changes = {}
-        for name in (self._measured, "rows", "covariance"):
+        for name in (self._measured, *self._others, "rows", "covariance"):
             value = getattr(self, name)
             if value is not None:
                 changes[name] = value[chosen]

@@ -72,8 +72,9 @@ class Points(Measurement):
     ----------
     p : (N, 3) or (N, k, 3) array_like
         Measured positions of k points, m.
-    points : (3,) or (k, 3) array_like, default (0, 0, 0)
-        The points in the tip frame, m.
+    points : (3,) or (k, 3) array_like, str or None, default (0, 0, 0)
+        The points in the tip frame, m; None where they are not known and estimated jointly; or a
+        name, such as "plate": sets in which it is the same have these points in common.
     covariance : (3k, 3k) or (N, 3k, 3k) array_like, optional
         Covariance of p_model − p_measured, m²; by default one standard deviation is estimated from
         the residuals.
@@ -114,25 +115,41 @@ class Points(Measurement):
 
     def __post_init__(self) -> None:
         p = finite(self.p, "p")
-        points = parse_points(self.points)
-        k = len(points)
         if p.ndim == 2:
             p = p[:, None]
-        if p.ndim != 3 or p.shape[1:] != points.shape:
+        points = self.points
+        unknown: list[UnknownFrame] = []
+        count = p.shape[1] if p.ndim == 3 else 1
+        if points is None or isinstance(points, str):
+            unknown = unknown_points(count, points)
+        else:
+            points = parse_points(points)
+            count = len(points)
+        if p.ndim != 3 or p.shape[1:] != (count, 3):
             raise ShapeError(
-                f"p: expected positions (N, {k}, 3), of {k} points, got shape {np.shape(self.p)}"
+                f"p: expected positions (N, {count}, 3), of {count} points, got shape "
+                f"{np.shape(self.p)}"
             )
         choice(self.frame, get_args(PointFrame), "frame")
-        unknown: tuple[UnknownFrame, ...] = ()
         if self.frame == "unknown":
-            unknown = (UnknownFrame("T_base_device", 6),)
-        self._keep(p=p, points=points, width=3 * k, unknown_frames=unknown)
+            unknown.insert(0, UnknownFrame("T_base_device", 6))
+        self._keep(p=p, points=points, width=3 * count, unknown_frames=tuple(unknown))
+
+    def _parts(self, frame_values: Frames) -> tuple[list[Array], Array]:
+        """The pose of the device, if it is unknown, and the points (k, 3)."""
+        values = list(frame_values)
+        of_device = values[: self.frame == "unknown"]
+        of_points = values[len(of_device) :]
+        if of_points:
+            return of_device, np.array(of_points)
+        return of_device, self.points
 
     def errors(self, T: Array, frame_values: Frames) -> Array:
         """Errors p_model − p_measured (N, 3k), in the frame in which p stands."""
-        for T_base_device in frame_values:
+        of_device, points = self._parts(frame_values)
+        for T_base_device in of_device:
             T = se3.inverse(T_base_device) @ T
-        errors = points_at(T, self.points) - self.p
+        errors = points_at(T, points) - self.p
         return errors.reshape(len(T), self.width)
 
     def jacobian(
@@ -142,26 +159,66 @@ class Points(Measurement):
         errors: Array,
         D: Array,
     ) -> Derivatives:
-        """Points move by v + ω × p; T_base_device <- T_base_device e^[ξ] by −ξ, seen from the device."""
-        if not frame_values:
-            return self._moved(T, D), []
-        seen, twists = seen_from(frame_values[0], T, D)
-        jacobian = self._moved(seen, twists)
-        return jacobian[..., :-6], [jacobian[..., -6:]]
-
-    def _moved(self, T: Array, D: Array) -> Array:
-        """Velocities (N, 3k, P) of the points under the space twists D (N, 6, P)."""
-        y = points_at(T, self.points)
-        moved = velocities(D[:, None], y)
-        return moved.reshape(len(T), self.width, D.shape[2])
+        """Points move by v + ω × p; T_base_device <- T_base_device e^[ξ] by −ξ, seen from the device;
+        R dy for a point y of the tool.
+        """
+        of_device, points = self._parts(frame_values)
+        P = D.shape[2]
+        for T_base_device in of_device:
+            T, D = seen_from(T_base_device, T, D)
+        moved = velocities(D[:, None], points_at(T, points))
+        jacobian = moved.reshape(len(T), self.width, -1)
+        of_frames = [jacobian[..., P:]] * len(of_device)
+        own = np.eye(len(points))
+        for k in range(len(frame_values) - len(of_device)):
+            of_point = np.kron(own[:, [k]], rotation_part(T))
+            of_frames.append(np.asarray(of_point, float))
+        return jacobian[..., :P], of_frames
 
     def guesses(self, T: Array) -> list[Array]:
-        """The rigid motion that brings the measured points nearest to the nominal ones."""
-        if not self.unknown_frames:
-            return []
-        nominal = points_at(T, self.points).reshape(-1, 3)
+        """Unknown points from where the nominal arm is, and the rigid motion that brings the measured
+        points nearest to the nominal ones.
+        """
+        has_device = self.frame == "unknown"
+        points = self.points
+        n_unknown = len(self.unknown_frames) - has_device
+        if n_unknown:
+            points = self._guessed_points(T)
+        if points is None:
+            X, points = initial_guess.device_and_points(T, self.p)
+            return [X, *points]
+        of_points = list(points[:n_unknown])
+        if not has_device:
+            return of_points
+        nominal = points_at(T, points).reshape(-1, 3)
         measured = self.p.reshape(-1, 3)
-        return [initial_guess.registration(nominal, measured)]
+        X = initial_guess.registration(nominal, measured)
+        return [X, *of_points]
+
+    def _guessed_points(self, T: Array) -> Array | None:
+        """Points (k, 3) as another set shows them, or as seen from the nominal arm; None without
+        either.
+        """
+        given = [frame.guess for frame in self.unknown_frames if frame.size == 3]
+        if all(y is not None for y in given):
+            return np.array(given)
+        if self.frame == "unknown":
+            return None
+        from_tip = self.p - translation_part(T)[:, None]
+        back = from_tip @ rotation_part(T)
+        found = map(initial_guess.mean_position, np.swapaxes(back, 0, 1))
+        return np.array(list(found))
+
+
+def unknown_points(count: int, shared: str | None) -> list[UnknownFrame]:
+    """Points of the tool that are estimated jointly, `shared` by the sets that call them so.
+
+    Raises: InputError.
+    """
+    if shared == "":
+        raise InputError("points: expected positions, a name or None, got ''")
+    names = [f"point {k + 1}" for k in range(count)]
+    return [UnknownFrame(name, 3, shared=shared) for name in names]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

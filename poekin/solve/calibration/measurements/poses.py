@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
 
+from ....checks import choice
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ....groups.vectors import rotation_part, translation_part
 from ..fit import initial_guess
-from .measurement import Derivatives, Frames, Measurement, make_unknown_frame, pose_rows, seen_from
+from .measurement import (
+    Derivatives,
+    Frames,
+    Measurement,
+    UnknownFrame,
+    make_unknown_frame,
+    pose_rows,
+    seen_from,
+)
+
+PoseFrame = Literal["base", "unknown"]
+PoseTool = Literal["tip", "unknown"]
 
 
 def pose_errors(T: Array, measured: Array) -> Array:
@@ -35,73 +48,32 @@ def pose_error_jacobian(T: Array, errors: Array, D: Array) -> Array:
     return np.concatenate([dw, dp], axis=1)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Poses(Measurement):
-    """Measured poses of the tip in the base frame, T = f(q).
-
-    Parameters
-    ----------
-    T : (N, 4, 4) array_like
-        Measured T_base_tip, m.
-    covariance : (6, 6) or (N, 6, 6) array_like, optional
-        Covariance of the errors, rad² and m²: the rotation vector of R_model R_measuredᵀ, then
-        p_model − p_measured, both in base axes. By default two standard deviations, of angles and
-        of lengths, are estimated from the residuals.
-    rows : (N,) array_like of int, optional
-        Row of q of each measurement; all in order by default.
-
-    Raises
-    ------
-    ShapeError
-        If an array has another shape.
-    PoseError
-        If an element of T is no pose.
-    InputError
-        If a number is not finite, or a covariance is not symmetric and positive definite.
+class _BetweenFrames(Measurement):
+    """T_fixed_moving = X^-1 f(q) Z, with X = T_base_fixed and Z = T_tip_moving, the identity where
+    they are not estimated jointly.
     """
-
-    T: Any
-    covariance: Any = None
-    rows: Any = None
-
-    width = 6
-    angular = 3
-
-    def __post_init__(self) -> None:
-        self._keep(T=pose_rows(self.T, "T"))
-
-    def errors(self, T: Array, frame_values: Frames) -> Array:
-        """Errors (N, 6), the rotation vector of R_model R_measuredᵀ and p_model − p_measured."""
-        return pose_errors(T, self.T)
-
-    def jacobian(
-        self,
-        T: Array,
-        frame_values: Frames,
-        errors: Array,
-        D: Array,
-    ) -> Derivatives:
-        """Turned by J_l⁻¹(w) ω, w the rotation vector of the error, and moved by v + ω × p."""
-        return pose_error_jacobian(T, errors, D), []
-
-
-class _HandEye(Measurement):
-    """T_fixed_moving = X^-1 f(q) Z, with X = T_base_fixed and Z = T_tip_moving estimated jointly."""
 
     width = 6
     angular = 3
     frames: ClassVar[dict[str, str]]  # the fields that say what is known of X and Z, in this order
     T: Array
 
-    def __post_init__(self) -> None:
-        name = fields(self)[0].name  # type: ignore[arg-type]
-        pairs = self.frames.items()
-        unknown = (make_unknown_frame(frame, getattr(self, own)) for frame, own in pairs)
-        self._keep(T=pose_rows(getattr(self, name), name), unknown_frames=tuple(unknown))
+    def _both(self, values: Sequence[Any]) -> list[Any]:
+        """X and Z, of values of those that are unknown."""
+        unknown = (u.name for u in self.unknown_frames)
+        named = dict(zip(unknown, values, strict=True))
+        return [named.get(name, np.eye(4)) for name in self.frames]
+
+    def _unknown(self, both: Sequence[Array]) -> list[Array]:
+        """Values of the unknown frames, of values of X and Z."""
+        named = dict(zip(self.frames, both, strict=True))
+        return [named[u.name] for u in self.unknown_frames]
 
     def errors(self, T: Array, frame_values: Frames) -> Array:
-        """Errors (N, 6) as of `Poses`, in the axes of the board or camera that stands still."""
-        X, Z = frame_values
+        """Errors (N, 6), the rotation vector of R_model R_measuredᵀ and p_model − p_measured, in the
+        axes of the fixed frame.
+        """
+        X, Z = self._both(frame_values)
         return pose_errors(se3.inverse(X) @ T @ Z, self.T)
 
     def jacobian(
@@ -111,25 +83,104 @@ class _HandEye(Measurement):
         errors: Array,
         D: Array,
     ) -> Derivatives:
-        """With G = X⁻¹ T Z: dG G⁻¹ is Ad(X⁻¹) D, −ξ of X <- X e^[ξ], Ad(G) ζ of Z <- Z e^[ζ]."""
-        X, Z = frame_values
+        """With G = X⁻¹ T Z: dG G⁻¹ is Ad(X⁻¹) D, −ξ of X <- X e^[ξ], Ad(G) ζ of Z <- Z e^[ζ]; J_l⁻¹(w) ω
+        turns the error w, and v + ω × p moves it.
+        """
+        if not len(frame_values):
+            return pose_error_jacobian(T, errors, D), []
+        X, Z = self._both(frame_values)
         seen, twists = seen_from(X, T, D)
         G = seen @ Z
         both = np.concatenate([twists, se3.adjoint(G)], axis=2)
         jacobian = pose_error_jacobian(G, errors, both)
         arm, *frames = np.split(jacobian, [-12, -6], axis=2)
-        return arm, frames
+        return arm, self._unknown(frames)
 
     def guesses(self, T: Array) -> list[Array]:
         """Frames as given, else by hand-eye calibration or the mean of the measured poses."""
-        X, Z = (u.guess for u in self.unknown_frames)
+        given = [u.guess for u in self.unknown_frames]
+        X, Z = self._both(given)
         if Z is None:
             if X is None:
-                return list(initial_guess.hand_eye(T, self.T))
+                return self._unknown(initial_guess.hand_eye(T, self.T))
             Z = initial_guess.mean_pose(se3.inverse(T) @ X @ self.T)
         elif X is None:
             X = initial_guess.mean_pose(T @ Z @ se3.inverse(self.T))
-        return [X, Z]
+        return self._unknown([X, Z])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Poses(_BetweenFrames):
+    """Measured poses of the tip in the base frame, T = f(q), or of a probe on it in a device's frame,
+    T = T_base_device⁻¹ f(q) T_tip_probe.
+
+    Parameters
+    ----------
+    T : (N, 4, 4) array_like
+        Measured T_base_tip, or T_device_probe, m.
+    covariance : (6, 6) or (N, 6, 6) array_like, optional
+        Covariance of the errors, rad² and m²: the rotation vector of R_model R_measuredᵀ, then
+        p_model − p_measured, both in base axes, or the device's. By default two standard
+        deviations, of angles and of lengths, are estimated from the residuals.
+    rows : (N,) array_like of int, optional
+        Row of q of each measurement; all in order by default.
+    frame : {"base", "unknown"}, default "base"
+        Frame in which T stands: the base frame, or that of a device whose pose T_base_device is
+        estimated jointly.
+    tool : {"tip", "unknown"}, default "tip"
+        What T is the pose of: the tip, or a probe on it whose T_tip_probe is estimated jointly.
+
+    Raises
+    ------
+    ShapeError
+        If an array has another shape.
+    PoseError
+        If an element of T is no pose.
+    InputError
+        If a number is not finite, a covariance is not symmetric and positive definite, or frame or
+        tool is another word.
+
+    Examples
+    --------
+    A tracker that stands anywhere, and sees the poses of a probe on the tool:
+
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> made = pk.calibration.simulated(arm, 30, kind="eye-to-hand")
+    >>> probe = pk.calibration.Poses(made.measurements.T, frame="unknown", tool="unknown")
+    >>> found = pk.calibrate(arm, made.q, probe, folds=0)
+    >>> sorted(found.frames)
+    ['T_base_device', 'T_tip_probe']
+    """
+
+    T: Any
+    covariance: Any = None
+    rows: Any = None
+    frame: PoseFrame = "base"
+    tool: PoseTool = "tip"
+
+    frames: ClassVar = {"T_base_device": "frame", "T_tip_probe": "tool"}
+
+    def __post_init__(self) -> None:
+        choice(self.frame, get_args(PoseFrame), "frame")
+        choice(self.tool, get_args(PoseTool), "tool")
+        unknown = []
+        for name, own in self.frames.items():
+            if getattr(self, own) == "unknown":
+                unknown.append(UnknownFrame(name, 6))
+        T = pose_rows(self.T, "T")
+        self._keep(T=T, unknown_frames=tuple(unknown))
+
+
+class _HandEye(_BetweenFrames):
+    """Poses between a camera and a board, both frames estimated jointly."""
+
+    def __post_init__(self) -> None:
+        name = fields(self)[0].name  # type: ignore[arg-type]
+        pairs = self.frames.items()
+        unknown = (make_unknown_frame(frame, getattr(self, own)) for frame, own in pairs)
+        T = pose_rows(getattr(self, name), name)
+        self._keep(T=T, unknown_frames=tuple(unknown))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -113,7 +113,7 @@ class Problem:
         T = self.model.nominal.fk(self.q)
         found: dict[str, Array] = {}
         parts = list(zip(self.sets, self._own, self.rows, strict=True))
-        parts.sort(key=lambda part: -len(part[0]))
+        parts.sort(key=lambda part: (not part[0].sees_arm, -len(part[0])))
         for s, own, rows in parts:
             known = []
             for name, unknown in zip(own, s.unknown_frames, strict=True):

@@ -37,6 +37,9 @@ class ResidualVectors(NamedTuple):
 
 def places_and_errors(s: Measurement, T: Array, frame_values: Frames) -> tuple[Array, Array]:
     """Points (N, k, 3) of the arm at poses T (N, 4, 4), and their errors, both in base axes."""
+    if not s.sees_arm:
+        nothing = np.empty((len(T), 0, 3))
+        return nothing, nothing
     errors = s.errors(T, frame_values)[:, s.angular :]
     if isinstance(s, Distances):
         places = point_at(T, s.point)
@@ -45,8 +48,9 @@ def places_and_errors(s: Measurement, T: Array, frame_values: Frames) -> tuple[A
         along = errors * away / np.maximum(size, np.finfo(float).tiny)
         return places[:, None], along[:, None]
     vectors = errors.reshape(len(T), -1, 3)
-    if frame_values:  # the first is the frame in which the errors stand
+    if len(frame_values) and frame_values[0].ndim == 2:  # the frame in which the errors stand
         vectors = vectors @ rotation_part(frame_values[0]).T
     if isinstance(s, Points):
-        return points_at(T, s.points), vectors
+        unknown = [y for y in frame_values if y.ndim == 1]
+        return points_at(T, np.array(unknown) if unknown else s.points), vectors
     return T[:, None, :3, 3], vectors

@@ -1,0 +1,1 @@
+"""Calibration from sweeps of one joint at a time: circle-point analysis, without a nominal model."""
