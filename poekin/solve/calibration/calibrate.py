@@ -41,6 +41,7 @@ from .result import Outlier
 from .selection import choose_terms
 from .selection.choose_terms import CANDIDATES
 from .selection.term_gain import TermGain
+from .terms import gravity
 from .terms.conditions import parse_conditions
 from .terms.named import TermName
 from .terms.term import Term, name_of
@@ -85,8 +86,9 @@ def calibrate(  # noqa: PLR0913 - options by keyword
         "offsets" and "gains" (one a coordinate: q <- (1 + g) q + o), "pitch" (one a revolute
         joint). A joint offset tells nothing that screws and home pose do not: it is for calibrating
         offsets alone. Default ("screws", "home"). Non-geometric terms, q <- q + B(q, conditions) c:
-        "compliance" (one a joint that carries, per metre of lever of a weight at the wrist; and one
-        per N m of the payload's torque), "coupling" (to the readings of the neighbours),
+        "compliance" (one a joint that carries, per N m of the gravity torque of `chain.masses`, or,
+        where they are not known, per metre of lever of a weight at the wrist; and one per N m of
+        the payload's torque), "coupling" (to the readings of the neighbours),
         "harmonics" and "second harmonics" (sine and cosine of q, of 2 q), "backlash" (its width),
         "lag" (per rad of the move before), "drift" (per K, s, or run), and any `Term`. "auto" takes
         "screws", "home" and those terms that make the error on held-out readings smaller: of the
@@ -292,8 +294,12 @@ def _result(
 def _of_terms(problem: Problem) -> tuple[str, ...]:
     if not problem.model.terms:
         return ()
+    said: tuple[str, ...] = ()
+    if any(term.name == "compliance" for term in problem.model.terms):
+        said = gravity.remarks(problem.model.nominal)
     return (
         "non-geometric terms were fitted: the calibrated chain takes true_joints(q), not the readings",
+        *said,
     )
 
 
