@@ -30,6 +30,7 @@ from .model.chain import Chain
 from .model.joint import Joint, Mimic, SafetyController
 from .model.methods.peer_names import OF_PACKAGE, no_attribute
 from .model.robot import Robot
+from .model.tree.link_masses import LinkMass
 from .solve import calibration, motion
 from .solve.calibration import calibrate, choose_poses
 from .solve.ik.ik import ik
@@ -42,6 +43,7 @@ from .view.view import view
 __all__ = [
     "Chain",
     "Joint",
+    "LinkMass",
     "Mimic",
     "PoekinError",
     "PoekinWarning",

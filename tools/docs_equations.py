@@ -119,6 +119,10 @@ EQUATIONS: dict[str, str] = {
         r"df\,f^{-1} = \sum_{i=1}^{n} (\operatorname{Ad}(P_{i-1}) - \operatorname{Ad}(P_i))\,\eta_i "
         r"+ \operatorname{Ad}(f)\,\eta, \quad P_i = e^{A_1 q_1} \cdots e^{A_i q_i}"
     ),
+    "poekin.formulas.statics.gravity": (
+        r"\tau_i = \omega_i \cdot (s_i \times g_i) + v_i \cdot \sum_{k \ge i} m_k g_i, \quad "
+        r"s_i = e^{A_i x_i} \cdot (s_{i+1} + m_i c_i), \quad g_{i+1} = R_i^T g_i"
+    ),
     "poekin.formulas.ik.circle_conic": (
         r"A c^2 + B c s + C s^2 + D c + E s + F = 0, \quad c = \cos\theta, \quad s = \sin\theta"
     ),

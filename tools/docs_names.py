@@ -20,6 +20,7 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "models": ("Models: read, make, write", (
         "load", "from_text", "xacro", "from_object", "to_urdf", "relinked", "Robot", "Joint", "Mimic",
         "SafetyController",
+        "LinkMass",
     )),
     "chain": ("Chain: poses, Jacobians, derivatives", ("Chain",)),
     "screw": ("screw: the axes of joints", ("screw",)),

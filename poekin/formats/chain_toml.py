@@ -24,12 +24,12 @@ CALIBRATED = "calibrated"
 _NAMES = ("base", "tip", "joint_names", "q_names")
 _ARRAYS = ("screws", "home", "limits", "offset")
 _LIMITS = ("velocity_limits", "joint_limits", "joint_velocity_limits")
-_KEYS = (*_NAMES, *_ARRAYS, "coupling", "pitches", *_LIMITS)
+_KEYS = (*_NAMES, *_ARRAYS, "coupling", "pitches", "masses", *_LIMITS)
 
 
 def to_data(chain: Chain) -> dict[str, Any]:
-    """Table of a chain: frames, names, screws, home pose, limits, offset; coupling, pitches and
-    further limits where there are such.
+    """Table of a chain: frames, names, screws, home pose, limits, offset; coupling, pitches, masses
+    and further limits where there are such.
     """
     data: dict[str, Any] = {
         "base": chain.base,
@@ -42,6 +42,8 @@ def to_data(chain: Chain) -> dict[str, Any]:
         data["coupling"] = chain.nontrivial_coupling.tolist()
     if chain.pitches.any():
         data["pitches"] = chain.pitches.tolist()
+    if chain.masses is not None:
+        data["masses"] = chain.masses.tolist()
     for key in _LIMITS:
         limits = getattr(chain, key)
         if np.isfinite(limits).any():
@@ -61,6 +63,7 @@ def to_chain(keys: Keys) -> Chain:
     shapes = {
         "coupling": (n, m),
         "pitches": (n,),
+        "masses": (n, 4),
         "velocity_limits": (m,),
         "joint_limits": (n, 2),
         "joint_velocity_limits": (n,),

@@ -15,6 +15,7 @@ real ones do:
 - an <origin> may have quat_xyzw in place of rpy where <robot> says version="1.1" or later; before
   that, nobody reads it, and a warning says so;
 - a joint that mimics one that does not exist stays independent, with a warning;
+- a <mass> of 0 is none; where one is negative or absurd, none of the file is used, with a warning;
 - only direct children of <robot> count: what <gazebo>, <transmission> and elements of other
   namespaces hold does not.
 """
@@ -37,6 +38,7 @@ from ..model.joint import FREE, KINDS, MOVING, Joint, JointKind, Mimic, SafetyCo
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import rpy
+from .common.inertial import link_masses
 from .common.limits import (
     ABSURD,
     UNBOUNDED,
@@ -132,7 +134,8 @@ def read_text(
     )
     stem = os.path.splitext(os.path.basename(name))[0]
     names = [link.name("name") for link in links]
-    robot = Robot(root.get("name") or stem, names, joints, lines)
+    masses = link_masses(links, source, tell)
+    robot = Robot(root.get("name") or stem, names, joints, lines, masses=masses)
     if tell:
         _warn(repairs, source)
     return robot

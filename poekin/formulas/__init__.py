@@ -266,6 +266,7 @@ BESIDE = {
     "kinematics.joint_ranges": "how far a configuration is from limits and from another one",
     "kinematics.singular_values": "how well the tool can be moved in its worst direction",
     "kinematics.gram": "how well the tool can be moved; the paper takes Jacobians as they are",
+    "statics.gravity": "torques of the arm's own weight; the paper's kinematics has no masses",
     "ik.elimination.circle_roots": "all real roots of a trigonometric polynomial of degree 8",
     "ik.elimination.joints": "the other five angles of a loop of six revolute joints, of one",
     "ik.elimination.line_equations": "a loop of six revolute joints as equations of one line",

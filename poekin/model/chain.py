@@ -1,7 +1,6 @@
 """Serial chain: n screws and one home pose, from a base frame to a tip.
 
-`Chain` is the face of `ChainData`. Poses and Jacobians are here, the other methods by topic in
-`methods`; each is one call of a function of the data, in `kinematics` or `geometry`.
+`Chain` is the face of `ChainData`: its methods, here and in `methods`, call functions of the data.
 """
 
 from __future__ import annotations
@@ -74,6 +73,8 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates, Cha
         it all, as of coupled readings; infinite means no more than those say.
     joint_velocity_limits : (n,) array_like, optional
         Greatest |dx| of each joint, likewise.
+    masses : (n, 4) array_like, optional
+        Mass of what each joint moves and the next one does not, kg, and its centre at x = 0, m.
 
     Raises
     ------
@@ -88,11 +89,11 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates, Cha
 
     Notes
     -----
-    Frozen: the arrays are read-only. Equal chains have equal numbers and names; chains are
-    hashable and pickle as their data. A chain without joints is legal. Not made to be subclassed.
-    `rebased`, `retooled` and `rezeroed` keep the pitches: the kind of a joint is not found again.
-    Accuracy: the data are kept to the last digit, but for what is made exact (unit length within
-    1e-9, the rotation of M within 1e-5). Source: Park 1994, eqs. (1) and (2).
+    Frozen, with read-only arrays. Equal chains have equal numbers and names, but for masses; they
+    are hashable and pickle as their data. A chain without joints is legal. Not made to be subclassed.
+    `rebased`, `retooled` and `rezeroed` keep the pitches. Accuracy: data are kept to the last digit,
+    but for what is made exact (unit length within 1e-9, the rotation of M within 1e-5). Source: Park
+    1994, eqs. (1) and (2).
 
     Examples
     --------

@@ -21,6 +21,7 @@ from .checks import (
     distinct_names,
     finite,
     frame_name,
+    joint_masses,
     one_pose,
     ordered_names,
     read_only,
@@ -66,6 +67,7 @@ class ChainOptions(TypedDict, total=False):
     velocity_limits: ArrayLike | None
     joint_limits: ArrayLike | None
     joint_velocity_limits: ArrayLike | None
+    masses: ArrayLike | None
 
 
 @dataclass(slots=True, init=False, eq=False, repr=False)
@@ -92,6 +94,7 @@ class ChainData:
     velocity_limits: Array
     joint_limits: Array
     joint_velocity_limits: Array
+    masses: Array | None
     nontrivial_coupling: Array | None
     kinds: tuple[ScrewKind, ...]
     local: LocalForm
@@ -117,6 +120,7 @@ class ChainData:
         velocity_limits: ArrayLike | None = None,
         joint_limits: ArrayLike | None = None,
         joint_velocity_limits: ArrayLike | None = None,
+        masses: ArrayLike | None = None,
     ) -> None:
         choice(frame, get_args(ScrewFrame), "frame", _ENTRANCES)
         given_names = ordered_names(joint_names, "joint_names")
@@ -155,6 +159,7 @@ class ChainData:
             joint_velocity_limits=read_only(
                 velocity_bounds(joint_velocity_limits, joints, "joint_velocity_limits")
             ),
+            masses=joint_masses(masses, n),
             nontrivial_coupling=None if C is None else read_only(C),
             kinds=tuple(map(_kind, form.rotates, form.slides)),
             local=form,
@@ -214,7 +219,8 @@ class ChainData:
         ----------
         **changes : dict
             Parameters of `Chain` by name. New `screws` are in the base frame, unless `frame` says
-            otherwise, and their pitches are found anew, unless `pitches` says them.
+            otherwise; their pitches are found anew and masses left out, unless `pitches` and `masses`
+            say them.
 
         Returns
         -------
@@ -238,7 +244,7 @@ class ChainData:
         """
         kept = self._data()
         if "screws" in changes:
-            kept["pitches"] = None
+            kept |= {"pitches": None, "masses": None}
             count = _row_count(changes["screws"])
             needed = [name for name in _SIZED if name not in changes and kept[name] is not None]
             if count not in (None, len(self.screws)) and needed:
@@ -267,16 +273,16 @@ class ChainData:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, ChainData):
             return NotImplemented
-        pairs = zip(
-            self._data().values(),
-            other._data().values(),
-            strict=True,
-        )
+        pairs = zip(self._kinematics(), other._kinematics(), strict=True)
         return all(type(a) is type(b) and np.array_equal(a, b) for a, b in pairs)
 
     def __hash__(self) -> int:
-        values = self._data().values()
+        values = self._kinematics()
         return hash(tuple(a.tobytes() if isinstance(a, np.ndarray) else a for a in values))
+
+    def _kinematics(self) -> list[Any]:
+        """The data without the masses, which say nothing of where the arm is."""
+        return [value for name, value in self._data().items() if name != "masses"]
 
     def __reduce__(self) -> tuple[object, ...]:
         return _rebuilt, (type(self), self._data())
@@ -305,6 +311,7 @@ _DATA = (
     "tip",
     "pitches",
     "velocity_limits",
+    "masses",
     *_OF_JOINTS,
 )
 # by the number of joints

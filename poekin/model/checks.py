@@ -175,3 +175,17 @@ def coupling_matrix(values: ArrayLike | None, n: int) -> Array | None:
     if C.ndim != 2 or C.shape[0] != n:
         raise ShapeError(f"coupling: expected shape ({n}, m), one row a joint, got {C.shape}")
     return None if np.array_equal(C, np.eye(n)) else C
+
+
+def joint_masses(values: ArrayLike | None, n: int) -> Array | None:
+    """Rows (n, 4) of mass and centre of mass; None where they are not known."""
+    if values is None:
+        return None
+    rows = finite(values, "masses")
+    if rows.shape != (n, 4):
+        raise ShapeError(
+            f"masses: expected shape ({n}, 4), mass, x, y and z of each joint, got {rows.shape}"
+        )
+    if (rows[:, 0] < 0.0).any():
+        raise InputError(f"masses: expected none below 0 kg, got {rows[:, 0].min():g}")
+    return read_only(rows)

@@ -20,6 +20,7 @@ from .show.tables import robot_table
 from .tree.all_poses import all_poses
 from .tree.chain_between import chain_between, only_leaf
 from .tree.coupling import warn_of_torn_limits
+from .tree.link_masses import LinkMass
 from .tree.link_program import link_program
 from .tree.robot_parts import RobotParts, make_parts
 
@@ -41,6 +42,8 @@ class Robot:
     coupling : str or sequence of str, optional
         Statements such as "J3 = J2 + J3", by which joints follow the readings that are then the
         robot's coordinates; see `Chain.coupled`.
+    masses : iterable of LinkMass, optional
+        Masses of links, as far as they are known; chains have those that they move.
 
     Attributes
     ----------
@@ -66,6 +69,8 @@ class Robot:
         coupled readings what these limits leave to each.
     coupling : tuple of str
         Statements of the coupling, none where each coordinate is its master joint's own value.
+    masses : tuple of LinkMass
+        Masses of the links that have one.
 
     Raises
     ------
@@ -82,7 +87,7 @@ class Robot:
     Notes
     -----
     Frozen, with read-only arrays; robots of equal name, links, joints and coupling are equal, wherever they
-    were read from.
+    were read from, and whatever their masses.
 
     Examples
     --------
@@ -98,6 +103,7 @@ class Robot:
     joints: tuple[Joint, ...]
     source: Source | None = None
     coupling: tuple[str, ...] = ()
+    masses: tuple[LinkMass, ...] = ()
     root: str = field(init=False)
     leaves: tuple[str, ...] = field(init=False)
     q_names: tuple[str, ...] = field(init=False)
@@ -111,13 +117,14 @@ class Robot:
         joints: Iterable[Joint],
         source: Source | str | None = None,
         coupling: Statements = (),
+        masses: Iterable[LinkMass] = (),
     ) -> None:
         read_from = Source(source) if isinstance(source, str) else source
         if read_from is not None and not isinstance(read_from, Source):
             raise ModelError(
                 f"robot {quote(name)}: source must be a Source, a text or None, got {safe_repr(source)}"
             )
-        parts = make_parts(name, links, joints, read_from, coupling)
+        parts = make_parts(name, links, joints, read_from, coupling, masses)
         self._freeze(parts, read_from)
         warn_of_torn_limits(parts.coupling, parts.torn, parts.joints, parts.place)
 
@@ -129,6 +136,7 @@ class Robot:
             "joints": parts.joints,
             "source": source,
             "coupling": make_statements(parts.readings, parts.coupling.q_names),
+            "masses": parts.masses,
             "root": parts.links[parts.tree.root],
             "leaves": tuple(link for link in parts.links if link not in parents),
             "q_names": parts.coupling.q_names,
@@ -258,7 +266,7 @@ class Robot:
                 f"coupling: the readings of robot {quote(self.name)} are coupled already: "
                 f"{'; '.join(self.coupling)}"
             )
-        return Robot(self.name, self.links, self.joints, self.source, coupling)
+        return Robot(self.name, self.links, self.joints, self.source, coupling, self.masses)
 
     def fk(self, q: Any, poses: Mapping[str, Any] | None = None) -> dict[str, np.ndarray]:
         """Pose of every link in the root link's frame.
@@ -340,7 +348,7 @@ class Robot:
     def __reduce__(self) -> tuple[Any, ...]:
         # Not __getstate__: Python 3.11.2 puts one of its own over that of a frozen dataclass with
         # slots.
-        return _rebuilt, (*self._data(), self.source)
+        return _rebuilt, (*self._data(), self.source, self.masses)
 
     def _repr_html_(self) -> str:
         return robot_table(self.name, self.joints)
@@ -362,8 +370,9 @@ def _rebuilt(
     joints: Any,
     coupling: tuple[str, ...],
     source: Source | None,
+    masses: tuple[LinkMass, ...],
 ) -> Robot:
     """A robot that was pickled: what there was to warn of was said when it was made."""
     robot = object.__new__(Robot)
-    robot._freeze(make_parts(name, links, joints, source, coupling), source)
+    robot._freeze(make_parts(name, links, joints, source, coupling, masses), source)
     return robot

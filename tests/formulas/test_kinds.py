@@ -54,6 +54,7 @@ from poekin.formulas.lie import (
     quaternion,
 )
 from poekin.formulas.paper import dh_recursive, direct
+from poekin.formulas.statics import gravity
 from tests.formulas.kinds import KINDS, floats, traced
 
 rng = np.random.default_rng(1994)
@@ -71,6 +72,7 @@ LINKS = [
 ]
 AXES = [list(map(float, row)) for row in rng.normal(size=(6, N))]
 SCREWS = [list(map(float, row)) for row in rng.normal(size=(N, 6))]
+BODIES = np.random.default_rng(8).normal(size=(N, 4)).tolist()
 ANGLES = rng.normal(size=N)
 SINES, COSINES, SHIFTS = np.sin(ANGLES).tolist(), np.cos(ANGLES).tolist(), (0.3 * ANGLES).tolist()
 MOTION = (LINKS, SINES, COSINES, SHIFTS, N)
@@ -380,6 +382,8 @@ CASES = [
     (screw_changes.source_twist, MOVED, V, [[0.3 * k for k in X] for _ in range(N + 1)], N),
     *[(f, X) for f in (screw_changes.squared_rotation, screw_changes.squared_displacement)],
     *[(f, SCREWS, LINKS, N, rows()) for f in (direct.space, direct.body)],
+    (gravity.torques, SCREWS, BODIES, RATES, SINES, COSINES, V, N, [[0.0] * 3 for _ in range(N)]),
+    (gravity.motion, X, 0.4, 0.3, 0.9),
     (recursive.z_column, T1, 1.0, 0.2),
     (recursive.body, LINKS, ROTATES, SLIDES, N, rows()),
     (recursive.body_with_tool, LINKS, T1, ROTATES, SLIDES, N, rows()),

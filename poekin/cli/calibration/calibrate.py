@@ -11,7 +11,7 @@ import typer
 from typer import Argument, Option
 
 from ...checks import choice
-from ...errors import InputError, UnknownName
+from ...errors import InputError, UnknownName, join_names, quote
 from ...formats.dh.table import CONVENTIONS
 from ...model.chain import Chain
 from ...model.robot import Robot
@@ -19,8 +19,10 @@ from ...solve.calibration.calibrate import calibrate
 from ...solve.calibration.calibration import Calibration
 from ...solve.calibration.exact.from_fk_result import FromFk
 from ...solve.calibration.measurements.header import Convention
+from ...solve.calibration.model.parameters import KINDS
 from ...solve.calibration.report import changes
 from ...solve.calibration.report.summary import MOST_OUTLIERS
+from ...solve.calibration.terms.named import BUILDERS
 from ...view.view import view
 from ..array_files import check_apart, check_place
 from ..formats import draw as pages
@@ -35,11 +37,16 @@ from .outputs import ENDINGS, Outputs, say_written
 Texts = list[str] | None
 Number = float | None
 BAD = 1
+KNOWN = (*KINDS, *BUILDERS)
+"""Kinds of parameters."""
 KIND = (
     "What poses are: poses, eye-in-hand or eye-to-hand; else points or distances. "
     "Once for all files, or once a file."
 )
-PARAMETERS = "What may change: some of screws,home,offsets,gains,pitch."
+PARAMETERS = (
+    f"What may change: some of {','.join(KINDS)}, and of the non-geometric terms {','.join(BUILDERS)}; or "
+    "auto: screws,home and the terms that pay on held-out data."
+)
 Data = Annotated[
     list[str],
     Argument(
@@ -62,6 +69,14 @@ Centre = Annotated[
         "--centre",
         metavar="X,Y,Z",
         help="The point that distances are from (default: unknown).",
+    ),
+]
+Gravity = Annotated[
+    str | None,
+    Option(
+        "--gravity",
+        metavar="X,Y,Z",
+        help="Where gravity pulls in the base frame, for compliance (default: 0,0,-1).",
     ),
 ]
 Frame = Annotated[
@@ -154,6 +169,7 @@ def command(
     point: Point = None,
     centre: Centre = None,
     frame: Frame = None,
+    gravity: Gravity = None,
     parameters: Parameters = None,
     joints: Joints = None,
     loss: Loss = "linear",
@@ -199,7 +215,7 @@ def command(
         Convention.of(format, mm, deg)._replace(rename=measured.names(rename)),
     )
     options: dict[str, Any] = {
-        "parameters": _listed(parameters) or ("screws", "home"),
+        "parameters": _kinds(parameters),
         "loss": loss,
         "joints": _listed(joints),
         "prior": _prior(prior_angle, prior_length),
@@ -208,15 +224,17 @@ def command(
         "seed": seed,
     }
     if exact:
-        exact_pairs.check(said, options)
+        exact_pairs.check(said, options | {"gravity": gravity})
     of_fk: FromFk | None = None
     try:
         given = measured.read(files, chain, said)
+        options["conditions"] = _conditions(given, gravity)
         if exact:
             of_fk = exact_pairs.fit(chain, given)
             found = of_fk.calibration
         else:
             found = _calibrated(chain, given, options)
+            _complain_of_unread(found, options)
     except (InputError, UnknownName) as fault:
         raise type(fault)(as_options(str(fault))) from fault
     # the controller's own poses are judged by their digits
@@ -240,6 +258,37 @@ def command(
     if not found.success:
         complain("the search did not converge: this is the best that was found")
     raise typer.Exit(BAD if verdict or not found.success else 0)
+
+
+def _kinds(words: Sequence[str] | None) -> str | Sequence[str]:
+    """The kinds of parameters that are asked for. Raises: InputError."""
+    kinds = tuple(_listed(words) or ("screws", "home"))
+    if kinds == ("auto",):
+        return "auto"
+    for kind in kinds:
+        if kind not in KNOWN:
+            raise InputError(
+                f"--parameters: expected some of {join_names(KNOWN, len(KNOWN))}, or auto alone, got"
+                f" {quote(kind)}"
+            )
+    return kinds
+
+
+def _conditions(given: Measured, gravity: str | None) -> dict[str, Any] | None:
+    """Conditions that the files and --gravity say."""
+    conditions: dict[str, Any] = dict(given.conditions)
+    if gravity is not None:
+        conditions["gravity"] = measured.vector(gravity, "--gravity")
+    return conditions or None
+
+
+def _complain_of_unread(found: Calibration, options: dict[str, Any]) -> None:
+    """Says which conditions no parameter depends on."""
+    given = options["conditions"] or {}
+    if given and not found.error_model.terms and options["parameters"] != "auto":
+        complain(
+            f"nothing depends on {', '.join(given)}: --parameters auto, or the name of a term, takes it"
+        )
 
 
 def _calibrated(chain: Chain, given: Measured, options: dict[str, Any]) -> Calibration:
@@ -276,6 +325,7 @@ _OPTIONS = {
     "rename=": "--rename",
     "rename: ": "--rename: ",
     "parameters=": "--parameters",
+    "conditions['gravity']": "--gravity",
     "joints=": "--joints",
     "prior['rad']": "--prior-angle",
     "prior['m']": "--prior-length",

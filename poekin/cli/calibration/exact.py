@@ -19,9 +19,10 @@ _DEFAULTS: dict[str, object] = {
     "joints": None,
     "prior": None,
     "on_rank_deficiency": "raise",
+    "gravity": None,
 }
 """The options about the fit, as they are without any."""
-_NAMES = {"prior": "--prior-angle and --prior-length"}
+_NAMES = {"prior": "--prior-angle and --prior-length", "gravity": "--gravity"}
 
 
 def check(said: MeasurementOptions, fit: Mapping[str, object]) -> None:
@@ -39,6 +40,8 @@ def check(said: MeasurementOptions, fit: Mapping[str, object]) -> None:
 
 def fit(chain: Chain, given: Measured) -> FromFk:
     """The arm of the pairs in the files. Raises: InputError."""
+    for name in given.conditions:
+        raise InputError(f"--exact: expected no column of {name}; --ignore {name} passes it over")
     for s in given.sets:
         if not isinstance(s, Poses):
             raise InputError(f"--exact: expected poses of the flange in the base, got {s.what}")

@@ -34,13 +34,14 @@ class MeasurementOptions(NamedTuple):
 
 
 class Measured(NamedTuple):
-    """Joint readings q (N, m), the sets of measurements made at them, and the file and line of each
-    row of q.
+    """Joint readings q (N, m), the sets of measurements made at them, the file and line of each row of
+    q, and columns (N,) of conditions.
     """
 
     q: Array
     sets: list[Measurement]
     sources: list[str]
+    conditions: dict[str, Array]
 
 
 _TAKES = {"points": ("point", "frame"), "poses": ("frame",), "distances": ("point", "centre")}
@@ -72,6 +73,7 @@ def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Mea
                     ignore=options.ignore,
                     progress=progress,
                     convention=options.convention,
+                    conditions=True,
                 )
             )
     made = [kind or table.layout.kinds[0] for kind, table in zip(kinds, tables, strict=True)]
@@ -85,7 +87,20 @@ def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Mea
         sets.append(data.make_measurement(table, kind, known).with_rows(rows))
         readings.append(table.q)
         sources += table.sources
-    return Measured(np.concatenate(readings), sets, sources)
+    return Measured(np.concatenate(readings), sets, sources, _conditions(tables, paths))
+
+
+def _conditions(tables: Sequence[data.MeasurementTable], paths: Sequence[str]) -> dict[str, Array]:
+    """Conditions of all rows. Raises: InputError where a file does not say what another one says."""
+    names = dict.fromkeys(name for table in tables for name in table.conditions)
+    for table, path in zip(tables, paths, strict=True):
+        for name in names:
+            if name not in table.conditions:
+                raise InputError(
+                    f"{path_text(path)}: expected a column {quote(name)}, as another file has one;"
+                    f" --ignore {name} passes that over"
+                )
+    return {name: np.concatenate([table.conditions[name] for table in tables]) for name in names}
 
 
 def check_fit(options: MeasurementOptions, kinds: Sequence[str]) -> None:

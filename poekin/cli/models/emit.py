@@ -21,6 +21,7 @@ from ...model.chain import Chain
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from ...model.robot import Robot
 from .. import array_files
+from ..calibration.true_joints import add_true_joints, with_terms
 from ..kinematics.arm import Base, File, Tip
 from ..kinematics.jacobian import parse_frame
 from ..model import model
@@ -118,7 +119,7 @@ def command(
     force: Force = False,
 ) -> None:
     """Pose and Jacobian of one chain, poses of all links, or all solutions of the inverse kinematics,
-    as source text that needs no poekin.
+    as source text that needs no poekin; of a calibration with non-geometric terms also its true joints.
     """
     if language not in ENDINGS:
         raise InputError(f"--lang: {alternatives(ENDINGS)} expected, got {quote(language)}")
@@ -151,6 +152,7 @@ def command(
             which = parse_frame("hybrid" if frame is None else frame, FRAMES)
             options = {"real": NUMBERS[single], "origin": origin, **accelerated}
             texts = _texts(chain, language, which, name, options)
+            add_true_joints(texts, with_terms(file), chain, language, options)
     places, directory = _places(output, language, texts)
     array_files.check_apart(places, model=file)
     _write(places, directory, force)

@@ -126,7 +126,7 @@ def _angles(program: Statements) -> list[str]:
     return [
         *(f"    {name} = q[..., {k}]" for name, _, k in program.angle_reads),
         *(f"    x{j} = {text}" for j, text in enumerate(program.angles)),
-        *_stack("return", [f"x{j}" for j in range(len(program.angles))]),
+        *stack("return", [f"x{j}" for j in range(len(program.angles))]),
     ]
 
 
@@ -142,20 +142,20 @@ def _statements(program: Statements, task: EmittedFunction) -> list[str]:
         lines.append("    zero = xp.sum(q[..., :0], -1)")
         lines += [f"    {names[x]} = xp.full_like(zero, {double(x)})" for x in constants]
     if task.poses:
-        lines += _stack("T =", [names.get(x, str(x)) for x in T])
+        lines += stack("T =", [names.get(x, str(x)) for x in T])
         lines.append("    T = xp.reshape(T, tuple(q.shape[:-1]) + (4, 4))")
     if task.jacobian:
         entries = "q"
         if task.columns:
             entries = "J"
-            lines += _stack("J =", [names.get(x, str(x)) for x in J])
+            lines += stack("J =", [names.get(x, str(x)) for x in J])
         lines.append(
             f"    J = xp.reshape({entries}, tuple(q.shape[:-1]) + ({task.rows}, {task.columns}))"
         )
     return lines
 
 
-def _stack(head: str, parts: list[str]) -> list[str]:
+def stack(head: str, parts: list[str]) -> list[str]:
     """A call of xp.stack over a list, in lines of no more than 110 characters."""
     body = textwrap.wrap(", ".join(parts), 102, break_long_words=False, break_on_hyphens=False)
     return [f"    {head} xp.stack([", *(f"        {line}" for line in body), "    ], -1)"]

@@ -18,6 +18,7 @@ What becomes of the rest:
   are left out, with a warning.
 - a site with a name -> a link, fixed to that of its body; where a body has that name too, it is
   `NAME_site`.
+- an <inertial> gives its body a mass; what geoms would give it is not known, as none is looked at.
 - a mocap body is placed by whoever runs the simulation: it is left out with all that hangs on it,
   and a warning.
 
@@ -47,12 +48,14 @@ from ...formulas.lie import quaternion
 from ...groups import se3
 from ...model.provenance import Source, warn
 from ...model.robot import Robot
+from ...model.tree.link_masses import is_mass
 from ..text import xml
 from ..text.atomic_write import FilePath
 from .mjcf_files import look_through
-from .mjcf_robot import ModelReader
+from .mjcf_robot import OF_GIVEN_MASS, ModelReader
 
 T = TypeVar("T")
+LIGHTEST = 1e-12  # kg: MuJoCo refuses bodies that are lighter than 1e-15
 
 # What is named first refers to what comes after it.
 WITHOUT_KINEMATICS = (
@@ -231,13 +234,18 @@ def without_dynamics(spec: Any, mujoco: ModuleType) -> list[str]:
     spec.nkey = 0  # MuJoCo is slow to make keyframes, and makes as many as are asked for
     spec.compiler.fusestatic = False
     spec.compiler.inertiafromgeom = int(mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE)
+    spec.compiler.settotalmass = -1.0
+    spec.compiler.boundmass = 0.0
     for body in spec.bodies:
         # A body that moves needs a mass, and the geoms that gave it one are gone.
+        given = body.explicitinertial and is_mass(body.mass, body.ipos.tolist())
+        given = given and body.mass > LIGHTEST
+        if not given:
+            body.mass = 1.0
+            body.ipos = [0.0] * 3
         body.explicitinertial = True
-        body.mass = 1.0
-        body.inertia = [1.0] * 3
+        body.inertia = [OF_GIVEN_MASS if given else 1.0] * 3
         body.fullinertia = [np.nan] * 6
-        body.ipos = [0.0] * 3
         body.iquat = [1.0, 0.0, 0.0, 0.0]
     return other
 

@@ -14,12 +14,14 @@ from ...groups.arrays import Array
 from ...model.joint import Joint, JointKind, Mimic
 from ...model.provenance import Source
 from ...model.robot import Robot
-from ...model.tree.chain_between import TWELVE
+from ...model.tree.link_masses import TWELVE, LinkMass
 from ..common.limits import UNBOUNDED, known_effort, known_loss
 from ..common.names import free_name
 
 # By the number that MuJoCo gives to a joint's type (mjtJoint).
 KINDS: tuple[JointKind, ...] = ("floating", "floating", "prismatic", "revolute")
+OF_GIVEN_MASS = 2.0
+"""Moments of inertia (kg m^2) by which a body's mass is known to be its own."""
 FREE_JOINT = 0
 BALL = 1
 
@@ -101,7 +103,15 @@ class ModelReader:
         self.warnings += [
             f"{text}: {join_names(names)}" for text, names in left_out.items() if names
         ]
-        return Robot(name, self.order, self.found, source), self.warnings
+        masses = [self._mass(i) for i in range(model.nbody) if self._has_mass(i)]
+        return Robot(name, self.order, self.found, source, masses=masses), self.warnings
+
+    def _has_mass(self, i: int) -> bool:
+        return i not in self.gone and self.model.body_inertia[i, 0] == OF_GIVEN_MASS
+
+    def _mass(self, i: int) -> LinkMass:
+        x, y, z = self.model.body_ipos[i].tolist()
+        return LinkMass(self.links[i], float(self.model.body_mass[i]), (x, y, z))
 
     def _site(
         self,

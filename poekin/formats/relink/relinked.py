@@ -142,7 +142,7 @@ def relinked(
         tool = _tool(robot, joints[down[-1]], branch.tool)
         links = list(dict.fromkeys((*links, tool.child)))
         joints = list({joint.name: joint for joint in (*joints, tool)}.values())
-    return Robot(robot.name, links, joints, robot.source, robot.coupling)
+    return Robot(robot.name, links, joints, robot.source, robot.coupling, robot.masses)
 
 
 def _check_alike(nominal: Chain, chain: Chain) -> None:

@@ -87,7 +87,7 @@ def idealised(chain: AnyChain, tol: float) -> Idealised[AnyChain]:
         if not walk.snapped or _settled(chain, screws, home):
             return unchanged
         position, rotation = _bounds(chain, walk.given, walk.exact)
-    exact = chain.replace(screws=screws, home=home, pitches=chain.pitches)
+    exact = chain.replace(screws=screws, home=home, pitches=chain.pitches, masses=chain.masses)
     return Idealised(exact, position, rotation, tuple(walk.changes))
 
 

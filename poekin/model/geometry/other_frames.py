@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError
 from ...groups import se3
+from ...groups.arrays import Array
 from ..chain_data import AnyChain
 from ..checks import one_pose
 from ..coordinates import coordinates
@@ -23,6 +24,7 @@ def rebased(chain: AnyChain, P: ArrayLike, base: str | None) -> AnyChain:
         home=P @ chain.home,
         base=base or chain.base,
         pitches=chain.pitches,
+        masses=_moved_masses(chain.masses, P),
     )
 
 
@@ -40,15 +42,18 @@ def rezeroed(chain: AnyChain, q0: Any) -> AnyChain:
     shifts = q0 if C is None else C @ q0
     A = np.empty_like(chain.screws)
     P = np.eye(4)
+    moved = []
     for i, S in enumerate(chain.screws):
         A[i] = se3.adjoint(P) @ S
         P = P @ se3.exp(S * shifts[i])
+        moved.append(P)
     return chain.replace(
         screws=A,
         home=P @ chain.home,
         limits=chain.limits - q0[:, None],
         joint_limits=chain.joint_limits - shifts[:, None],
         pitches=chain.pitches,
+        masses=_moved_masses(chain.masses, moved),
     )
 
 
@@ -57,3 +62,13 @@ def without_offset(chain: AnyChain) -> AnyChain:
     if not chain.offset.any():
         return chain
     return rezeroed(chain.replace(offset=np.zeros(chain.dof)), chain.offset)
+
+
+def _moved_masses(masses: Array | None, P: ArrayLike) -> Array | None:
+    """Rows (n, 4) of mass and centre of mass, each moved by P (4, 4) or its own of P (n, 4, 4)."""
+    if masses is None:
+        return None
+    moves = np.broadcast_to(P, (len(masses), 4, 4))
+    turned = np.einsum("nij,nj->ni", moves[:, :3, :3], masses[:, 1:])
+    centres = turned + moves[:, :3, 3]
+    return np.column_stack([masses[:, 0], centres])

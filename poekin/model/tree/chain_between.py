@@ -11,11 +11,10 @@ from ...errors import InputError, ModelError, join_names, quote
 from ..chain_data import ChainOptions
 from ..joint import FREE
 from .coupling import shared_limits, shared_velocity_limits
+from .link_masses import TWELVE, moved_masses
 from .robot_parts import RobotParts, link_number
 from .tree import path
 
-# The twelve numbers of a pose (R, p), as algebra.py orders them, out of a flattened 4x4 matrix.
-TWELVE = [0, 1, 2, 4, 5, 6, 8, 9, 10, 3, 7, 11]
 # Entries of the largest coupling matrix that is made, half a gigabyte.
 LARGEST = 64_000_000
 
@@ -39,11 +38,8 @@ def chain_between(
     screws = []
     moving = []
     H: Any = IDENTITY
-    for number, forward in path(
-        parts.tree,
-        link_number(parts, base, "base"),
-        link_number(parts, tip, "tip"),
-    ):
+    ends = link_number(parts, base, "base"), link_number(parts, tip, "tip")
+    for number, forward in path(parts.tree, *ends):
         joint = parts.joints[number]
         if joint.kind in FREE:
             raise ModelError(
@@ -62,6 +58,8 @@ def chain_between(
     home = np.eye(4)
     home.ravel()[TWELVE] = H
     options = _options(parts, np.array(moving, dtype=np.int64), base, tip)
+    masses = {parts.numbers[own.link]: own for own in parts.masses}
+    options["masses"] = moved_masses(parts.tree, parts.joints, masses, *ends)
     return np.reshape(screws, (-1, 6)), home, options
 
 

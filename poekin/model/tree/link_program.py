@@ -6,7 +6,7 @@ import numpy as np
 
 from ...engine.straight_line.program import Program
 from ...engine.straight_line.tree import TracedTree, tree_program
-from .chain_between import TWELVE
+from .link_masses import TWELVE
 from .robot_parts import RobotParts
 
 

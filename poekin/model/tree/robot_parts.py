@@ -14,6 +14,7 @@ from ..provenance import Source
 from ..readings.coupled import reading_limits
 from ..readings.statements import Statements, parse_statements
 from .coupling import Coupling, coupling_of, shared_limits
+from .link_masses import LinkMass, checked_masses
 from .tree import Tree, tree_of
 from .tree_arrays import TreeLayout, layout_of
 
@@ -39,6 +40,7 @@ class RobotParts(NamedTuple):
     torn: np.ndarray
     layout: TreeLayout
     readings: np.ndarray | None = None
+    masses: tuple[LinkMass, ...] = ()
 
 
 def make_parts(
@@ -47,6 +49,7 @@ def make_parts(
     joints: Iterable[Joint],
     source: Source | None,
     statements: Statements = (),
+    masses: Iterable[LinkMass] = (),
 ) -> RobotParts:
     """Parts of a robot. Raises: ModelError where links and joints make no tree."""
     all_links = _items(links, "links", name)
@@ -78,6 +81,7 @@ def make_parts(
         torn,
         layout_of(tree, all_joints, coupling),
         readings,
+        checked_masses(masses, all_links, place.place()),
     )
 
 

@@ -5,42 +5,35 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 
-from ...checks import choice, positive, whole
-from ...errors import InputError, safe_repr
-from ...groups.arrays import Array
+from ...checks import choice, whole
+from ...errors import InputError
 from ...model.kinematics.arm import Arm, chain_of
 from ...model.provenance import warn
 from ...results import Progress
 from .calibration import Calibration
 from .causes.most_likely import build_problem
-from .diagnostics import cross_validation, explanation, misfit, units, verdict
+from .diagnostics import cross_validation, explanation, misfit, verdict
 from .diagnostics.cross_validation import CrossValidation
-from .diagnostics.identification import (
-    Identification,
-    OnRankDeficiency,
-    check_rank,
-    identify_directions,
-)
-from .fit import noise
+from .diagnostics.identification import OnRankDeficiency
 from .fit.covariance import covariance_of
-from .fit.fitting import Fit, fit_frames
+from .fit.fitting import Fit
 from .fit.losses import LOSSES, OUTLIER, LossName, chi_square
-from .fit.minimise import STEPS, FitOptions
-from .fit.refit import fit_with_refit
+from .fit.minimise import STEPS
+from .fitted_problem import FittedProblem, fit_problem
 from .measurements.inputs import parse_measurements, parse_readings
 from .model.configurations import Folds, configurations
 from .model.error_model import ErrorModel
 from .model.parameters import ParameterKind, Unit
-from .model.problem import MeasuredPoints, Problem
-from .model.residuals import Residuals
+from .model.problem import Problem
 from .result import Outlier
 from .selection import choose_terms
 from .selection.choose_terms import CANDIDATES
 from .selection.term_gain import TermGain
+from .terms import gravity
 from .terms.conditions import parse_conditions
 from .terms.named import TermName
 from .terms.term import Term, name_of
@@ -85,8 +78,9 @@ def calibrate(  # noqa: PLR0913 - options by keyword
         "offsets" and "gains" (one a coordinate: q <- (1 + g) q + o), "pitch" (one a revolute
         joint). A joint offset tells nothing that screws and home pose do not: it is for calibrating
         offsets alone. Default ("screws", "home"). Non-geometric terms, q <- q + B(q, conditions) c:
-        "compliance" (one a joint that carries, per metre of lever of a weight at the wrist; and one
-        per N m of the payload's torque), "coupling" (to the readings of the neighbours),
+        "compliance" (one a joint that carries, per N m of the gravity torque of `chain.masses`, or,
+        where they are not known, per metre of lever of a weight at the wrist; and one per N m of
+        the payload's torque), "coupling" (to the readings of the neighbours),
         "harmonics" and "second harmonics" (sine and cosine of q, of 2 q), "backlash" (its width),
         "lag" (per rad of the move before), "drift" (per K, s, or run), and any `Term`. "auto" takes
         "screws", "home" and those terms that make the error on held-out readings smaller: of the
@@ -184,7 +178,11 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     model = ErrorModel(chain, kinds, joints, reference)
     problem = build_problem(model, q, sets).under(given)
     solve = partial(
-        _solve, loss=loss, prior=prior, iterations=iterations, on_rank_deficiency=on_rank_deficiency
+        fit_problem,
+        loss=loss,
+        prior=prior,
+        iterations=iterations,
+        on_rank_deficiency=on_rank_deficiency,
     )
     solved = solve(problem)
     terms: tuple[TermGain, ...] = ()
@@ -213,48 +211,9 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     return found
 
 
-class _Solved(NamedTuple):
-    """A fit, its options, what was free before it, and the errors and points that it began with."""
-
-    identification: Identification
-    free: Array
-    options: FitOptions
-    before: Residuals
-    points: MeasuredPoints
-    fit: Fit
-
-
-def _solve(
-    problem: Problem,
-    loss: LossName,
-    prior: Mapping[Unit, float] | None,
-    iterations: int,
-    on_rank_deficiency: OnRankDeficiency,
-) -> _Solved:
-    """The fit of a problem that was found sound."""
-    sigma = _prior(prior, problem)
-    identification, free = identify_directions(problem)
-    with_prior = identification
-    if sigma is not None:
-        with_prior, free = identify_directions(problem, np.isfinite(sigma))
-    check_rank(with_prior, on_rank_deficiency)
-    noise.check(problem.sets, problem.n_equations, free.shape[1])
-    start = fit_frames(problem, loss)
-    units.check(problem, start)
-    # now, while the problem has these errors
-    before = problem.residuals(start)
-    points = problem.points(start)
-    options = FitOptions(loss, sigma, iterations)
-    fit = fit_with_refit(problem, free, start, options)
-    if fit.free is not free:
-        identification, _ = identify_directions(problem, p=fit.p)
-    misfit.check(problem, fit)
-    return _Solved(identification, free, options, before, points, fit)
-
-
 def _result(
     problem: Problem,
-    solved: _Solved,
+    solved: FittedProblem,
     held_out: CrossValidation | None,
     doubts: Sequence[misfit.Contradiction],
 ) -> Calibration:
@@ -292,8 +251,12 @@ def _result(
 def _of_terms(problem: Problem) -> tuple[str, ...]:
     if not problem.model.terms:
         return ()
+    said: tuple[str, ...] = ()
+    if any(term.name == "compliance" for term in problem.model.terms):
+        said = gravity.remarks(problem.model.nominal)
     return (
         "non-geometric terms were fitted: the calibrated chain takes true_joints(q), not the readings",
+        *said,
     )
 
 
@@ -305,21 +268,3 @@ def _outliers(problem: Problem, fit: Fit) -> tuple[Outlier, ...]:
         rows = problem.rows[k].tolist()
         found += [Outlier(k, i, rows[i]) for i in np.flatnonzero(gross).tolist()]
     return tuple(found)
-
-
-def _prior(prior: Mapping[Unit, float] | None, problem: Problem) -> Array | None:
-    """Standard deviations (P,), infinite for unknown frames and units that are not named."""
-    if prior is None:
-        return None
-    if not isinstance(prior, Mapping) or not prior:
-        raise InputError(
-            "prior: expected standard deviations by unit, such as {'rad': 1e-3}, got "
-            f"{safe_repr(prior)}"
-        )
-    for unit, sigma in prior.items():
-        choice(unit, get_args(Unit), "prior")
-        positive(sigma, f"prior[{unit!r}]")
-    sigmas = np.full(problem.size, np.inf)
-    own = problem.model.parameters
-    sigmas[: len(own)] = [prior.get(p.unit, np.inf) for p in own]
-    return sigmas

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, overload
+from typing import Any, Literal, overload
 
 from numpy.typing import ArrayLike
 
@@ -12,14 +12,16 @@ from ...analysis.compare.compare import compare
 from ...analysis.compare.comparison import Comparison
 from ...formats import dh
 from ...formats.dh.from_chain import FromChain
+from ...formats.emit.c import CSource
 from ...formats.relink import relinked
 from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import Into, to_urdf
 from ...groups.arrays import Array
 from ...model.coordinates import coordinates
 from ...model.robot import Robot
-from . import compensation
+from . import compensation, emission
 from .compensation import Command
+from .emission import Language
 from .report import document, html_report, summary, toml_io
 from .result import CalibrationData
 from .terms.term import Term
@@ -164,6 +166,54 @@ class Calibration(CalibrationData):
         True
         """
         return compensation.compensate(self, T, nearest_to, conditions)
+
+    @overload
+    def emit(self, language: Literal["c"], *, name: str = "arm", origin: str = "") -> CSource: ...
+
+    @overload
+    def emit(self, language: Literal["python"], *, name: str = "arm", origin: str = "") -> str: ...
+
+    def emit(self, language: Language, *, name: str = "arm", origin: str = "") -> str | CSource:
+        """`true_joints` as source text that needs no poekin, beside `pk.emit.c(found.chain, ...)`.
+
+        Parameters
+        ----------
+        language : {"c", "python"}
+            C99 in double, of math.h alone, or Python for arrays of NumPy, JAX and PyTorch.
+        name : str, default "arm"
+            Name with which the C names begin.
+        origin : str, default ""
+            Words for the head of the text on where the calibration is from.
+
+        Returns
+        -------
+        source : CSource or str
+            Files NAME_true_joints.h, .c and _selftest.c, or a module. The function `true_joints` is of
+            the readings q and, where the terms depend on any, of the conditions in the order that the
+            head of the text says; it gives the true joint values.
+
+        Raises
+        ------
+        InputError
+            If there are no non-geometric terms, one is a `Term` without a formula, the language is
+            neither, or name or origin is no text.
+
+        Notes
+        -----
+        Accuracy: 1e-12 (rad, m) of `true_joints` (tests/solve/calibration/test_emission.py). Source: the
+        formulas of the terms, traced.
+
+        Examples
+        --------
+        >>> import poekin as pk
+        >>> arm = pk.load("ur5").chain()
+        >>> made = pk.calibration.simulated(arm, 40, seed=2)
+        >>> kinds = ("screws", "home", "compliance")
+        >>> found = pk.calibrate(arm, made.q, made.measurements, parameters=kinds, folds=0)
+        >>> list(found.emit("c", name="ur5").files)
+        ['ur5_true_joints.h', 'ur5_true_joints.c', 'ur5_true_joints_selftest.c']
+        """
+        return emission.emit(self, language, name, origin)
 
     def compare(self) -> Comparison:
         """Comparison of the nominal and the calibrated arm, joint by joint.

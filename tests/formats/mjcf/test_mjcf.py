@@ -16,6 +16,7 @@ from poekin.formats.load import load
 from poekin.formats.mjcf import mjcf
 from poekin.formats.urdf_text import to_urdf
 from poekin.model.robot import Robot
+from poekin.model.tree.link_masses import LinkMass
 
 mujoco = pytest.importorskip("mujoco", reason="the package mujoco is not installed")
 
@@ -427,3 +428,18 @@ def test_a_floating_joint_is_the_one_that_its_urdf_gives(tmp_path):
     (tmp_path / "a.urdf").write_text(to_urdf(robot), encoding="ascii")
     (ours,), (theirs,) = robot.joints, load(tmp_path / "a.urdf").joints
     assert (ours.kind, ours.axis, ours.limits) == (theirs.kind, theirs.axis, theirs.limits)
+
+
+def test_bodies_with_an_inertial_have_its_mass_whatever_geoms_and_options_say():
+    inner = '<body name="c"><inertial pos="0 0 0" mass="1e-13" diaginertia="1 1 1"/></body>'
+    heavy = '<body name="d"><inertial pos="0 0 0" mass="2e4" diaginertia="1 1 1"/></body>'
+    robot, said = read(
+        model_of(
+            f"""<body name="a"><inertial pos="1 2 3" mass="4" diaginertia="1 2 2"/><joint/>
+            <body name="b">{G}<joint/>{inner}{heavy}</body></body>
+            <body name="e" mocap="true"><inertial pos="0 0 0" mass="4" diaginertia="1 1 1"/></body>""",
+            top='<compiler settotalmass="90" boundmass="8"/>',
+        )
+    )
+    assert robot.masses == (LinkMass("a", 4.0, (1, 2, 3)),)
+    assert len(said) == 1  # of the mocap body

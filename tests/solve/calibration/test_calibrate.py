@@ -363,7 +363,8 @@ BAD = {
     ),
     "a prior of a wrong unit": (
         {"prior": {"mm": 1}},
-        "prior: expected 'rad', 'm', '1', 'm/rad', 'rad/m', 'rad/(N m)', 'rad/s', 'm/s', 'rad/K' or 'm/K', got 'mm'",
+        "prior: expected 'rad', 'm', '1', 'm/rad', 'rad/m', 'rad/(N m)', 'm/N', 'rad/s', 'm/s', 'rad/K' "
+        "or 'm/K', got 'mm'",
     ),
     "a prior of nothing": (
         {"prior": {}},

@@ -7,6 +7,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import fields
+from types import MappingProxyType
 from typing import Any, NamedTuple, get_args
 
 import numpy as np
@@ -31,6 +32,7 @@ from ....model.chain import Chain
 from ....model.checks import finite
 from ....model.coordinates import coordinates
 from ..model.configurations import Repeats, average_repeats
+from ..terms.condition_columns import ConditionColumn, condition_columns
 from . import columns
 from .columns import ColumnLayout
 from .header import NO_HEADER, SI, Convention, read_header
@@ -50,13 +52,14 @@ KINDS: dict[str, type[Measurement]] = {
 
 class MeasurementTable(NamedTuple):
     """The rows of a file of measurements: joint readings q (N, m), the measured values (N, k) in
-    the order of the layout's columns, and the file and line of each row.
+    the order of the layout's columns, the file and line of each row, and columns (N,) of conditions.
     """
 
     q: Array
     values: Array
     layout: ColumnLayout
     sources: list[str]
+    conditions: Mapping[str, Array] = MappingProxyType({})
 
 
 def read(  # noqa: PLR0913 - options by keyword
@@ -159,10 +162,12 @@ def read_table(
     ignore: Iterable[str] = (),
     progress: csv_rows.Progress | None = None,
     convention: Convention = SI,
+    conditions: bool = False,
 ) -> MeasurementTable:
     """The numbers of a file of measurements, before anything is made of them; the file is read
     once, so it may be a pipe, or the number of an open one. Parameters and errors: those of `read`;
-    where, what messages call the file (default: its path).
+    where, what messages call the file (default: its path); conditions, whether columns of payload,
+    temperature and time are read.
     """
     if kind is not None:
         choice(kind, KINDS, "kind")
@@ -170,20 +175,24 @@ def read_table(
         ignore = (ignore,)
     passed_over = tuple(ignore)
     header = NO_HEADER
+    told: list[ConditionColumn] = []
 
     def choose(words: list[str], here: str) -> list[int]:
-        nonlocal header
-        header = read_header(words, chain, passed_over, here, convention)
+        nonlocal header, told
+        if conditions:
+            told = condition_columns(words, {*chain.q_names, *passed_over}, here)
+        of_others = (*passed_over, *(column.word for column in told))
+        header = read_header(words, chain, of_others, here, convention)
         layout = header.layout
         if kind is not None and kind not in layout.kinds:
             kinds = " or ".join(layout.kinds)
             those = f"the columns {columns.describe(layout)} are those of {kinds}"
             raise InputError(f"{here}: {those}, and kind is {safe_repr(kind)}")
-        return header.indices
+        return [*header.indices, *(column.index for column in told)]
 
     with csv_rows.opened(path, where) as (stream, where, size):
         rows, lines = csv_rows.read_chosen(stream, choose, where, progress, size)
-    names = header.names
+    names = [*header.names, *(column.word for column in told)]
     for i, k in np.argwhere(~np.isfinite(rows)):
         raise InputError(
             f"{where}:{lines[i]}, column {quote(names[k])}: expected a finite number, got "
@@ -192,8 +201,9 @@ def read_table(
     sources = [f"{where}:{line}" for line in lines]
     for k, convert in header.conversions:
         rows[:, k] = convert(rows[:, k])
-    q, values = np.split(rows, [chain.dof], axis=1)
-    return MeasurementTable(q, values, header.layout, sources)
+    q, values, given = np.split(rows, [chain.dof, len(header.names)], axis=1)
+    found = {column.name: column.factor * x for column, x in zip(told, given.T, strict=True)}
+    return MeasurementTable(q, values, header.layout, sources, found)
 
 
 def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:

@@ -132,7 +132,7 @@ class ErrorModel:
         M = nominal.home @ se3.exp(errors.home)
         pitches = nominal.pitches + errors.pitches
         if self._plain:
-            return nominal.replace(screws=A, home=M, pitches=pitches)
+            return nominal.replace(screws=A, home=M, pitches=pitches, masses=nominal.masses)
         return Chain.from_space(A, M, pitches=pitches)
 
     @property
@@ -190,6 +190,7 @@ class ErrorModel:
             screws=moved.screws,
             home=moved.home,
             pitches=moved.pitches,
+            masses=self.nominal.masses,
         )
         if errors.offsets.any():
             arm = arm.rezeroed(errors.offsets)

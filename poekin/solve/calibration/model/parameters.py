@@ -14,7 +14,9 @@ from ....groups.arrays import Array
 from ....model.chain import Chain
 
 ParameterKind = Literal["screws", "home", "offsets", "gains", "pitch"]
-Unit = Literal["rad", "m", "1", "m/rad", "rad/m", "rad/(N m)", "rad/s", "m/s", "rad/K", "m/K"]
+Unit = Literal[
+    "rad", "m", "1", "m/rad", "rad/m", "rad/(N m)", "m/N", "rad/s", "m/s", "rad/K", "m/K"
+]
 Mask = NDArray[np.bool_]
 KINDS: tuple[ParameterKind, ...] = get_args(ParameterKind)
 ROTATIONS = ("turn about x", "turn about y", "turn about z")
@@ -32,7 +34,7 @@ class Parameter(NamedTuple):
         A joint, a coordinate, "home", or an unknown frame.
     what : str
         What it is, such as "tilt about (1, 0, 0)".
-    unit : {"rad", "m", "1", "m/rad", "rad/m", "rad/(N m)", "rad/s", "m/s", "rad/K", "m/K"}
+    unit : {"rad", "m", "1", "m/rad", "rad/m", "rad/(N m)", "m/N", "rad/s", "m/s", "rad/K", "m/K"}
         Its unit.
     """
 

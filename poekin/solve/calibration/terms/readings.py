@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.sampling import angle_mask
 from ..model.parameters import Parameter
-from .conditions import Conditions, Reference
-from .term import Owners, Term, spread
+from .conditions import Reference
+from .scalars import Scalars
+from .term import Owners, Term, make_term
 
 
 def coupling(chain: Chain, owners: Owners, _reference: Reference) -> list[Term]:
@@ -18,16 +20,10 @@ def coupling(chain: Chain, owners: Owners, _reference: Reference) -> list[Term]:
     for i in owners.tolist():
         neighbours = (i - 1, i + 1)
         pairs += [(i, j) for j in neighbours if 0 <= j < chain.dof]
-    if not pairs:
-        return []
-    to, other = np.array(pairs).T
+    to, other = np.reshape(pairs, (-1, 2)).T
     names = chain.q_names
     parameters = (Parameter(names[i], f"coupling to {names[j]}", "1") for i, j in pairs)
-
-    def basis(q: Array, _conditions: Conditions) -> Array:
-        return spread(q[:, other], to, chain.dof)
-
-    return [Term("coupling", tuple(parameters), basis)]
+    return make_term("coupling", parameters, to, lambda x: [x.q[j] for j in other])
 
 
 def harmonics(chain: Chain, owners: Owners, _reference: Reference) -> list[Term]:
@@ -42,19 +38,16 @@ def second_harmonics(chain: Chain, owners: Owners, _reference: Reference) -> lis
 
 def _harmonics(chain: Chain, owners: Owners, order: int, name: str) -> list[Term]:
     angles = owners[angle_mask(chain)[owners]]
-    if not len(angles):
-        return []
     times = "" if order == 1 else f"{order} "
     parameters = [
         Parameter(chain.q_names[i], f"{function} {times}q", "rad")
         for function in ("sin", "cos")
         for i in angles
     ]
-    twice = np.tile(angles, 2)
+    multiples = (order * np.eye(chain.dof)[angles]).tolist()
 
-    def basis(q: Array, _conditions: Conditions) -> Array:
-        x = order * q[:, angles]
-        values = np.concatenate([np.sin(x), np.cos(x)], axis=1)
-        return spread(values, twice, chain.dof)
+    def columns(x: Scalars) -> list[Any]:
+        pairs = [x.sine_cosine(factors, 0.0) for factors in multiples]
+        return [sine for sine, _ in pairs] + [cosine for _, cosine in pairs]
 
-    return [Term(name, tuple(parameters), basis)]
+    return make_term(name, parameters, np.tile(angles, 2), columns)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +14,17 @@ from ....groups.arrays import Array, numbers
 from ....model.checks import finite
 from ..model.parameters import Parameter
 from .conditions import Conditions
+from .scalars import Columns, of_rows
 
 Owners = NDArray[np.intp]
 Basis = Callable[[Array, Conditions], Array]
+
+
+class Formula(NamedTuple):
+    """Basis of a term for scalars of any kind, and the coordinates that its columns are added to."""
+
+    owners: Owners
+    columns: Columns
 
 
 @dataclass(frozen=True)
@@ -30,6 +39,8 @@ class Term:
         The k coefficients c: whose they are, what they are, and their unit.
     basis : callable
         B (N, m, k) of readings q (N, m) and of their `Conditions`.
+    formula : Formula, optional
+        The same for scalars, of which `Calibration.emit` writes code; poekin's own terms have one.
 
     Raises
     ------
@@ -60,6 +71,7 @@ class Term:
     name: str
     parameters: tuple[Parameter, ...]
     basis: Basis = field(repr=False, compare=False)
+    formula: Formula | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         if not self.name or not self.parameters:
@@ -83,9 +95,24 @@ def name_of(kind: str | Term) -> str:
     return kind
 
 
-def spread(values: Array, owners: Owners, dof: int) -> Array:
-    """B (N, m, k) in which coefficient j multiplies values[:, j] (N, k) at coordinate owners[j]."""
-    N, k = values.shape
-    B = np.zeros((N, dof, k))
-    B[:, owners, np.arange(k)] = values
-    return B
+def make_term(
+    name: str,
+    parameters: Iterable[Parameter],
+    owners: Owners,
+    columns: Columns,
+) -> list[Term]:
+    """The term whose coefficient j multiplies number j of the columns at coordinate owners[j]; none
+    without coefficients.
+    """
+    named = tuple(parameters)
+    if not named:
+        return []
+
+    def basis(q: Array, conditions: Conditions) -> Array:
+        N, dof = q.shape
+        B = np.zeros((N, dof, len(owners)))
+        for j, values in enumerate(columns(of_rows(q, conditions))):
+            B[:, owners[j], j] = values
+        return B
+
+    return [Term(name, named, basis, Formula(owners, columns))]

@@ -1,0 +1,1 @@
+"""Non-geometric errors of a calibrated arm as source text: from readings to true joint values."""

@@ -1,0 +1,79 @@
+"""`poekin emit` of a calibration with non-geometric terms: what makes true joint values, too."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.solve.calibration import Parameter, Term, calibrate
+from tests.formats.emitted import module
+from tests.solve.calibration.terms.sagging import arm, case
+
+CHAIN = arm("kr5")
+MADE = case(CHAIN, 0, sag=1e-3)
+
+
+def found(*kinds):
+    return calibrate(
+        CHAIN, MADE.q, MADE.points, parameters=("screws", "home", *kinds), folds=0,
+        on_rank_deficiency="fix",
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def sagging():
+    return found("compliance")
+
+
+@pytest.fixture
+def file(sagging, tmp_path):
+    sagging.save(tmp_path / "arm.toml")
+    return tmp_path / "arm.toml"
+
+
+def test_c_is_six_files_of_which_three_are_the_terms(poekin, file, sagging, tmp_path):
+    words = ("emit", file, "--lang", "c", "--name", "kr5", "--output", tmp_path / "c")
+    code, out, err = poekin(*words)
+    assert (code, err) == (0, "")
+    assert "kr5_true_joints.c" in out
+    made = {path.name for path in (tmp_path / "c").iterdir()}
+    assert made == {f"kr5{end}" for end in (".h", ".c", "_selftest.c")} | {
+        f"kr5_true_joints{end}" for end in (".h", ".c", "_selftest.c")
+    }
+    text = (tmp_path / "c" / "kr5_true_joints.c").read_text(encoding="ascii")
+    assert "with the SHA-256" in text
+    plain = sagging.emit("c", name="kr5").source
+    assert text.partition("#include")[2] == plain.partition("#include")[2]
+
+
+def test_python_has_one_more_function(poekin, file, sagging, tmp_path):
+    words = ("emit", file, "--lang", "python", "--output", tmp_path / "a.py")
+    assert poekin(*words)[0] == 0
+    functions = module((tmp_path / "a.py").read_text(encoding="ascii"))
+    q = MADE.fresh[:4]
+    T = functions.fk(functions.true_joints(q, np), np)
+    expected = sagging.chain.fk(sagging.true_joints(q))
+    np.testing.assert_allclose(T, expected, rtol=0, atol=1e-12)
+
+
+def test_other_languages_and_no_terms_are_told_or_as_before(poekin, file, tmp_path):
+    words = ("emit", file, "--lang", "javascript", "--output", tmp_path / "a.js")
+    code, _, err = poekin(*words)
+    assert code == 0
+    assert "written in c and python only, not in javascript" in err.replace("\n", " ")
+    found().save(tmp_path / "plain.toml")
+    words = ("emit", tmp_path / "plain.toml", "--lang", "python", "--output", tmp_path / "b.py")
+    assert poekin(*words)[::2] == (0, "")
+    assert "true_joints" not in (tmp_path / "b.py").read_text(encoding="ascii")
+
+
+def test_another_branch_and_a_term_of_the_user_s_own_are_refused(refused, file, tmp_path):
+    link = pk.load(file).links[3]
+    words = ("emit", file, "--lang", "c", "--tip", link, "--output", tmp_path / "c")
+    assert "the calibration's terms are of 'joint1', 'joint2'" in refused(*words).replace("\n", " ")
+    own = Term("ripple", (Parameter("a", "sin", "rad"),), lambda q, c: np.sin(q)[..., None])
+    found(own).save(tmp_path / "own.toml")
+    words = ("emit", tmp_path / "own.toml", "--lang", "c", "--output", tmp_path / "c")
+    assert "got 'ripple'" in refused(*words)
+    assert not (tmp_path / "c").exists()
