@@ -569,7 +569,7 @@ def test_two_files_of_one_kind_are_one_text_and_its_warnings_are_said_once(tmp_p
 
 
 def test_an_option_is_said_where_a_keyword_would_be():
-    assert command._as_options(
+    assert command.as_options(
         "the lengths look like millimetres: give metres (divide by 1000)"
     ) == (
         "the lengths look like millimetres: give metres"
