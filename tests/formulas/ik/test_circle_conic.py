@@ -192,7 +192,7 @@ def test_without_a_point_every_margin_is_below_0():
 
 
 def test_a_line_that_cuts_the_circle_by_less_than_rounding_tells_no_point():
-    # of 8 such in some thousand near tangents: no point of the circle is on the conic
+    # the line's margin is 5e-7, but between its points the left side stays above rounding
     conic = (
         0.6658473075519447, -0.6473115266993945, -0.3585621626251655,
         -2.3280048739297996, 0.6738873887054428, 1.664042204358425,

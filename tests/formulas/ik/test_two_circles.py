@@ -279,6 +279,7 @@ def test_out_of_reach_an_angle_that_no_equation_holds_is_one():
 
 def test_just_out_of_reach_the_nearest_angles_are_given():
     for got in two_circles.roots((1.0, 0.0, 0.0, 0.0, 1.00001), (0.0, 0.0, 1.0, 0.0, 1.0)):
+        # the margin is of the size of what is out of reach, 1e-5
         assert got == pytest.approx((1.0, 0.0, 1.0, 0.0, -1e-5), abs=2e-5)
         assert got[4] < 0.0
 
@@ -286,6 +287,7 @@ def test_just_out_of_reach_the_nearest_angles_are_given():
 def test_equations_that_both_just_reach_have_one_root():
     for got in two_circles.roots((1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.0, 1.0)):
         assert got[4] == 0.0
+        # a double root: the square root of rounding
         assert got[:4] == pytest.approx((1.0, 0.0, 1.0, 0.0), abs=4 * math.sqrt(2 * UNIT))
 
 

@@ -46,7 +46,7 @@ def test_the_recursions_give_the_tool_s_screws_in_its_own_frame(count):
         same(T, flat(behind[0] if tool or count > 1 else MOVED[0]))
 
 
-@pytest.mark.parametrize("begin, end", [(0, 1), (0, 4), (1, 2), (1, 4)])
+@pytest.mark.parametrize("begin, end", [(0, 1), (0, 2), (0, 3), (0, 4), (1, 2), (1, 4)])
 def test_the_velocity_is_that_of_the_body_jacobian(begin, end):
     behind = [product(*MOVED[i + 1 : end], TOOL) for i in range(begin, end)]
     steps = zip(behind, LOCAL[begin:end], RATES[begin:end], strict=True)

@@ -61,7 +61,8 @@ def test_of_no_length_the_point_is_that_of_the_angle_0():
 
 @pytest.mark.parametrize("length, told", [(0.5, 0.64), (1e-3, 4e-6), (2.0, 0.64)])
 def test_how_well_the_second_angle_is_told_is_of_the_equations_not_of_their_size(length, told):
-    # rows (length, 0) and (0, -1), so that (2 length / (1 + length^2))^2 is told
+    # rows (length, 0) and (0, -1), so that (2 length / (1 + length^2))^2 is told: 4 length^2 of
+    # a small one, but for 2 length^2 of it
     x, y, z, zero = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
     p = (length, 0.0, 0.0)
     found = joints.second((x, z), (zero, zero), p, x, p, y)

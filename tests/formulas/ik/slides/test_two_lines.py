@@ -86,6 +86,7 @@ def test_of_one_square_alone_both_roots_solve_both_equations(squares):
     for t, _, w, _, margin in two_lines.roots((1.0, 0.0, 2.0, 0.0, 1.0), second):
         assert margin > 0.0
         size = (1 + abs(t) + abs(w)) ** 2
+        # a root of the quadratic to 4 u, and some roundings of sums of that size
         assert abs(t + 2 * w - 1) <= 8 * U * size
         assert abs(0.5 * t + K * t * t - w + L * w * w - second[4]) <= 16 * U * size
 
