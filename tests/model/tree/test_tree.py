@@ -46,6 +46,19 @@ NO_TREES = {
         [revolute("j", "a", "b")],
         "robot 'r': a robot has one root, but 2 links have no parent: 'a' (robot 'r'), 'c' (robot 'r')",
     ),
+    "five roots": (
+        [*"abcde"],
+        [],
+        "robot 'r': a robot has one root, but 5 links have no parent: "
+        + ", ".join(f"'{link}' (robot 'r')" for link in "abcde"),
+    ),
+    "seven roots": (
+        [*"abcdefg"],
+        [],
+        "robot 'r': a robot has one root, but 7 links have no parent: "
+        + ", ".join(f"'{link}' (robot 'r')" for link in "abcde")
+        + " and 2 more",
+    ),
     "two parents": (
         ["a", "b", "c"],
         [revolute("i", "a", "c"), revolute("j", "b", "c")],

@@ -19,9 +19,8 @@ from ....groups.arrays import Array
 from ....groups.vectors import norm
 from .joints import LoopJoint, Tolerance, across, meeting_point, parallel, planar
 
-# Shares of the reach, along an axis and of a point: any that nothing else is at.
+# Shares of the reach, along an axis and of points: any that nothing else is at.
 _ALONG = (0.37, -0.61)
-_PLACE = (0.41, -0.29, 0.53)
 _PLACES = ((0.41, -0.29, 0.53), (-0.33, 0.47, 0.21), (0.17, 0.59, -0.43))
 # Directions square to each other and askew to everything: arms are drawn, and posed, at right angles.
 _ASKEW = ((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
@@ -53,7 +52,7 @@ def completions(
                 yield from _wrists(joints, i, made_of, reach, tolerance)
                 yield from _parallels(joints, i, made_of, reach, tolerance)
     if n <= 3:
-        place = _generic_point(joints, reach, _PLACE)
+        place = _generic_point(joints, reach, _PLACES[0])
         wrist = [_turns(e, place) for e in np.array(_ASKEW)]
         yield from _filled([*joints, *wrist], n, WRIST, "a point of the tip")
 

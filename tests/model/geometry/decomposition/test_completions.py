@@ -28,6 +28,8 @@ def test_every_completion_has_six_joints_and_three_axes_of_its_family(name, firs
         assert len(one.joints) == 6
         own = [joint.column for joint in one.joints if joint.column != ADDED]
         assert own == [joint.column for joint in joints]
+        lengths = [np.linalg.norm(joint.direction) for joint in one.joints]
+        np.testing.assert_allclose(lengths, 1.0, rtol=4 * 2.0**-53)
         three = one.joints[one.first : one.first + 3]
         loose = Tolerance(1e-12, 1e-12)
         if one.family == WRIST:
@@ -68,6 +70,17 @@ def test_of_one_axis_the_added_ones_meet_on_it_and_it_stays_the_arm_s(name):
             assert (own.column, own.direction.tolist()) == (i, joint.direction.tolist())
             along = own.point - joint.point
             np.testing.assert_allclose(np.cross(along, joint.direction), 0, atol=1e-15)
+            assert 0.2 < np.linalg.norm(along) / 2.0 < 0.8
+        assert len({tuple(one.joints[0].point) for one in found}) == len(found)
+
+
+def test_axes_added_at_the_tip_meet_at_right_angles():
+    joints = joints_of(pk.load("ur5").chain())[:2]
+    at_tip = [one for one in completions(joints, 2.0, NEAR) if one.words == "a point of the tip"]
+    for one in at_tip:
+        H = np.array([joint.direction for joint in one.joints[2:5]])
+        np.testing.assert_allclose(H @ H.T, np.eye(3), rtol=0, atol=4 * 2.0**-53)
+    assert at_tip
 
 
 @pytest.mark.parametrize("reach", [0.02, 2.0])
