@@ -161,3 +161,11 @@ def test_a_model_is_not_overwritten_and_a_page_is(refused, poekin, crane, here):
     model.write_text("an old page")
     assert poekin("view", crane)[0] == 0
     assert "poekin-scene" in model.read_text(encoding="utf-8")
+
+
+def test_a_page_is_called_after_its_model_with_a_hundred_characters_at_most(poekin, here):
+    for length in (100, 101):
+        robot = pk.Robot("x" * length, ["a"], [])
+        (here / "arm.urdf").write_text(pk.to_urdf(robot), encoding="utf-8")
+        assert poekin("view", "arm.urdf", "--no-meshes")[0] == 0
+    assert [page.stem for page in here.glob("*.html")] == ["x" * 100]

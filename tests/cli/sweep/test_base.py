@@ -42,6 +42,13 @@ def test_the_table_is_the_ranking_of_the_library(place, poekin):
     assert json.loads(out)["order"] == own.order.tolist()
 
 
+def test_the_first_ten_candidates_are_listed(place, poekin):
+    many = np.tile(BASES, (3, 1, 1))
+    np.savetxt(place / "many.csv", many.reshape(-1, 16), delimiter=",")
+    _, out, _ = poekin(*words(place, "many.csv"))
+    assert len(out.split("─\n")[1].strip().split("\n")) == 10
+
+
 def test_the_exit_code_says_that_no_candidate_serves_all(place, poekin):
     own = pk.sweep.base_placement(pk.sweep.load_map(place / "map.npz"), TARGETS, BASES[:2])
     assert own.reached[0] < 3

@@ -59,6 +59,11 @@ def test_what_no_model_begins_as_is_of_no_kind(text):
     assert kinds.kind_of(text.encode()) is None
 
 
+def test_a_model_begins_within_65536_characters():
+    assert kinds.kind_of("\n" * (2**16 - 1) + "<robot/>") == "xml"
+    assert kinds.kind_of("\n" * 2**16 + "<robot/>") is None
+
+
 def test_text_is_utf_8_or_utf_16_with_its_mark():
     for encoding in ("utf-8", "utf-8-sig", "utf-16"):
         assert kinds.decode("data: ü".encode(encoding), "f") == "data: ü"

@@ -80,7 +80,9 @@ def test_a_slip_hides_no_fault(text):
 
 def test_binary_data_are_called_so():
     with pytest.raises(ModelError, match=r"^f:1: malformed XML \(binary data\?\): '"):
-        xml.parse(b"<robot\0", "f")
+        xml.parse(b"<robot".ljust(1023) + b"\0", "f")
+    with pytest.raises(ModelError, match=r"^f:1: malformed XML: '"):
+        xml.parse(b"<robot".ljust(1024) + b"\0", "f")
 
 
 @pytest.mark.parametrize(

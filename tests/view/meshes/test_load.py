@@ -238,3 +238,20 @@ def test_two_hundred_characters_of_a_library_s_words_are_shown(monkeypatch, leng
     with pytest.raises(FileError) as caught:
         load.load(stl(), "m.stl")
     assert str(caught.value) == f"cannot be read: {shown}"
+
+
+def test_each_place_that_names_a_geometry_of_a_dae_counts_the_characters_of_its_numbers(
+    monkeypatch,
+):
+    """Two names of one geometry with five characters, and one more for the node that has them."""
+    geometry = '<geometry id="{}"><mesh><triangles><p>{}</p></triangles></mesh></geometry>'
+    name = '<instance_geometry url="#a"/>'
+    twice = (
+        f"<COLLADA><library_geometries>{geometry.format('a', '0 1 2')}{geometry.format('b', '0')}"
+        f'</library_geometries><visual_scene id="s"><node id="n">{name * 2}</node></visual_scene></COLLADA>'
+    ).encode()
+    monkeypatch.setattr(refuse, "MOST", 11)
+    refuse.checked(twice, ".dae")
+    monkeypatch.setattr(refuse, "MOST", 10)
+    with pytest.raises(FileError, match=r"^its parts are named too many times$"):
+        refuse.checked(twice, ".dae")

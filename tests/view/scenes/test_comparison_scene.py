@@ -7,6 +7,7 @@ import pytest
 
 import poekin as pk
 from poekin.view.nodes import Label, Triangles
+from poekin.view.scenes import comparison
 from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.arm_parts.skeleton import glyph_radii, skeleton_nodes
 from poekin.view.scenes.comparison import LEGEND, comparison_scene
@@ -63,7 +64,7 @@ def test_the_words_begin_with_the_outcome_and_the_table_has_each_joint():
     assert {len(row) for row in table.rows} == {len(table.heads)}
 
 
-def test_of_many_sentences_the_page_holds_eight_and_says_how_many_more_there_are():
+def test_of_many_sentences_the_page_holds_eight_and_says_how_many_more_there_are(monkeypatch):
     moved = pk.se3.exp(0.02 * np.random.default_rng(0).normal(size=(7, 6)))
     screws = np.einsum("kij,kj->ki", pk.se3.adjoint(moved), ARM.screws)
     found = pk.compare(ARM, ARM.replace(screws=screws))
@@ -75,6 +76,8 @@ def test_of_many_sentences_the_page_holds_eight_and_says_how_many_more_there_are
     assert words[8:] == (
         f"{len(every) - 8} more: summary() of the comparison, and `poekin compare`.",
     )
+    monkeypatch.setattr(comparison, "MOST_WORDS", len(every))
+    assert comparison_scene(found).words == every
 
 
 def test_the_table_leaves_out_what_is_the_same_of_all_joints_and_keeps_what_is_not():

@@ -6,9 +6,16 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.view.scene import Slider
 from poekin.view.scenes.arm import arm_geometry, arm_scene
 from poekin.view.scenes.arm_parts.geometry import opening_q
-from poekin.view.scenes.arm_parts.regular import GOOD, TURN, is_one_arm, regular_opening
+from poekin.view.scenes.arm_parts.regular import (
+    GOOD,
+    TURN,
+    _turned,
+    is_one_arm,
+    regular_opening,
+)
 
 SINGULAR = ["ur3", "ur5e", "ur10e", "puma560", "kr5", "irb140", "jaco", "iiwa14", "stanford"]
 
@@ -95,3 +102,16 @@ def test_a_robot_with_several_arms_is_left_as_it_is():
     assert is_one_arm(panda)
     two = arm_scene(pk.load("erd:talos_reduced"), meshes=False)
     assert not is_one_arm(two.arms[0].tips)
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_every_way_to_turn_some_of_the_angles_is_looked_at_the_fewest_first(n):
+    sliders = [
+        *(Slider(f"q{k}", "rad", -9.0, 9.0) for k in range(n)),
+        Slider("lift", "m", -9.0, 9.0),
+    ]
+    rows = np.array(list(_turned(sliders, range(n + 1), np.zeros(n + 1))))
+    assert np.unique(rows, axis=0).shape == rows.shape == (3**n - 1, n + 1)
+    assert set(np.abs(rows[:, :n]).ravel()) <= {0.0, TURN}
+    assert not rows[:, n].any()
+    assert (np.diff((rows != 0).sum(axis=1)) >= 0).all()

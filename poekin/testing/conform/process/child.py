@@ -298,7 +298,7 @@ class _Fresh:
             [sys.executable, "-c", start],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            start_new_session=os.name == "posix",
+            start_new_session=True,  # which Windows passes over
         )
         self.requests: Any = self._process.stdin
         self.replies: Any = self._process.stdout

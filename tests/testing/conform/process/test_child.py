@@ -9,7 +9,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,6 +17,7 @@ import pytest
 from benchmarks.subjects import Poekin
 from poekin.errors import InputError
 from poekin.testing.conform import Grade, Limits, conform, search
+from poekin.testing.conform.process import child
 from poekin.testing.conform.process.child import POOLS, Child, isolated, obstacle
 from poekin.testing.conform.run import opened
 
@@ -243,3 +244,12 @@ def test_what_does_not_survive_a_fork_is_run_here_and_said(monkeypatch):
         "note: run in this process, with no limit on its calls: the threads of torch, loaded here"
         in str(report)
     )
+
+
+def test_where_processes_have_no_groups_the_process_itself_is_ended(monkeypatch):
+    ended = []
+    fresh = child._Fresh.__new__(child._Fresh)
+    monkeypatch.setattr(fresh, "_process", SimpleNamespace(kill=lambda: ended.append(1)), False)
+    monkeypatch.setattr(child, "os", SimpleNamespace(name="nt"))
+    fresh.kill()
+    assert ended == [1]
