@@ -80,8 +80,8 @@ def test_masses_go_with_the_base_and_the_zero_and_stay_with_another_tool():
     P = pk.se3.exp([0.3, -0.2, 0.5, 0.1, 0.4, -0.3])
     for row, moved in zip(arm.masses, arm.rebased(P).masses, strict=True):
         np.testing.assert_allclose(moved, [row[0], *(P @ [*row[1:], 1])[:3]], atol=1e-15)
-    turned = arm.rezeroed([np.pi / 2, 0.0]).masses
-    np.testing.assert_allclose(turned, [[2, 0, 0, -0.5], [1, 0.25, 0, 0]], atol=1e-15)
+    turned = arm.rezeroed([np.pi / 2, np.pi / 2]).masses
+    np.testing.assert_allclose(turned, [[2, 0, 0, -0.5], [1, 0, 0, -0.25]], atol=1e-15)
     for same in (arm.retooled(P), arm.coupled("lift = lift + turn"), arm.replace(tip="t")):
         np.testing.assert_array_equal(same.masses, arm.masses)
     assert arm.replace(screws=arm.screws).masses is None

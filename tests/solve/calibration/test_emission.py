@@ -124,6 +124,22 @@ def test_the_c_text_is_true_joints_without_a_warning(name, compiler, tmp_path):
     assert ran.stdout.endswith("allowed 1e-12: passed\n")
 
 
+def test_the_self_test_tells_a_wrong_text(tmp_path):
+    cc = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
+    if cc is None:
+        pytest.skip("no C compiler: what is emitted was not compiled")
+    source = CASES["coupled, upright"].emit("c")
+    wrong = source.source.replace("q_true[5] = ", "q_true[5] = 1e-9 + ")
+    for file, text in {**source.files, f"{source.name}.c": wrong}.items():
+        (tmp_path / file).write_text(text, encoding="ascii")
+    files = [str(path) for path in tmp_path.glob("*.c")]
+    program = str(tmp_path / "selftest")
+    subprocess.run([cc, "-std=c99", *files, "-o", program, "-lm"], check=True)
+    ran = subprocess.run([program], capture_output=True, text=True, check=False)
+    assert ran.returncode == 1
+    assert ran.stdout == f"{source.name}: worst error 1e-09, allowed 1e-12: FAILED\n"
+
+
 def test_the_header_says_the_conditions_in_order_with_their_means():
     header = CASES["every term"].emit("c").header
     assert " *   conditions[0]  payload, kg; 1.5\n" in header
