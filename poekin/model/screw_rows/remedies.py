@@ -31,12 +31,12 @@ _READINGS = (
     _Reading(
         "pk.se3.linear_first({})",
         "its rows are unit screws in the order (v; omega)",
-        lambda S: np.roll(S, 3, axis=-1),
+        lambda S: np.roll(S, 3, axis=1),
     ),
     _Reading(
         "pk.se3.linear_first({}.T)",
         "its columns are unit screws in the order (v; omega)",
-        lambda S: np.roll(S.T, 3, axis=-1),
+        lambda S: np.roll(S.T, 3, axis=1),
     ),
 )
 _MENDS = (
