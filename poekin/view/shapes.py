@@ -118,9 +118,11 @@ def revolved(radii: ArrayLike, heights: ArrayLike, sides: int = SIDES) -> Surfac
 
     Parameters
     ----------
-    radii, heights : (k,) array_like
-        Distances from z and heights of the profile's corners, m; the first and the last radius
-        are 0, the others are not.
+    radii : (k - 2,) array_like
+        Distances from z of the profile's corners between the first and the last, which are on it,
+        m; none is 0.
+    heights : (k,) array_like
+        Heights of all corners, m.
     sides : int
         Sides of the polygon that stands for a circle, its corners on the circle.
 
@@ -131,7 +133,7 @@ def revolved(radii: ArrayLike, heights: ArrayLike, sides: int = SIDES) -> Surfac
         sin(2π / sides) / (2π / sides).
     """
     turn = _turns(sides)
-    r = np.asarray(radii, float)[1:-1, None]
+    r = np.asarray(radii, float)[:, None]
     z = np.asarray(heights, float)
     rings = np.empty((len(r), sides, 3))
     rings[..., 0] = r * np.cos(turn)
@@ -199,14 +201,14 @@ def tube(points: ArrayLike, radius: float) -> Surface:
 def cylinder(radius: float, length: float, sides: int = SIDES) -> Surface:
     """Cylinder about z, its middle at the origin."""
     half = 0.5 * length
-    radii = [0, radius, radius, 0]
+    radii = [radius, radius]
     heights = [-half, -half, half, half]
     return revolved(radii, heights, sides)
 
 
 def cone(radius: float, length: float, sides: int = SIDES) -> Surface:
     """Cone about z, its base at the origin and its point above."""
-    return revolved([0, radius, 0], [0, 0, length], sides)
+    return revolved([radius], [0, 0, length], sides)
 
 
 def sphere(radius: float = 1.0, sides: int = 32) -> Surface:
@@ -218,7 +220,7 @@ def sphere(radius: float = 1.0, sides: int = 32) -> Surface:
 
 
 class _Profile(NamedTuple):
-    """Distances from z and heights of a profile's corners, m."""
+    """Distances from z and heights of a profile's corners, as `revolved` takes them."""
 
     radii: Array
     heights: Array
@@ -226,9 +228,7 @@ class _Profile(NamedTuple):
 
 def _half_circle(radius: float, turn: Array) -> _Profile:
     """Profile of a sphere at angles from 0 to π from below."""
-    radii = radius * np.sin(turn)
-    radii[[0, -1]] = 0.0
-    return _Profile(radii, -radius * np.cos(turn))
+    return _Profile(radius * np.sin(turn[1:-1]), -radius * np.cos(turn))
 
 
 def capsule(start: ArrayLike, end: ArrayLike, radius: float, sides: int = SIDES) -> Surface:
@@ -275,7 +275,7 @@ def arrow(
 ) -> Surface:
     """Arrow from the origin along z: radius of its shaft, radius and length of its head, m."""
     neck = length - head_length
-    radii = [0, shaft, shaft, head, 0]
+    radii = [shaft, shaft, head]
     heights = [0, 0, neck, neck, length]
     return revolved(radii, heights, sides)
 
@@ -284,7 +284,7 @@ def double_arrow(length: float, shaft: float, head: float, head_length: float) -
     """Arrow along z with a head at both ends, its middle at the origin: a prismatic joint."""
     half = 0.5 * length
     neck = half - head_length
-    radii = [0, head, shaft, shaft, head, 0]
+    radii = [head, shaft, shaft, head]
     heights = [-half, -neck, -neck, neck, neck, half]
     return revolved(radii, heights)
 

@@ -179,6 +179,15 @@ def test_links_of_the_second_arm_are_where_model_b_has_them():
         )
 
 
+def test_a_joint_that_is_called_like_the_tip_has_no_frame_in_its_place():
+    chain = ARM.replace(joint_names=(*ARM.joint_names[:-1], ARM.tip))
+    made = exaggerated(pk.compare(chain, chain, samples=1))
+    nodes = second_nodes(made, chain_geometry(chain), {}, {chain.tip}, 1.0)
+    own = [node for node in nodes if node.attachment.layer == "frames"]
+    arrows = [node for node in own if isinstance(node, Triangles)]
+    assert len(arrows) == 3
+
+
 def test_two_models_that_coincide_are_told_apart_and_a_joint_that_differs_covers_the_other():
     """What coincides is a shell around the first model, which is seen through it; a joint that
     differs is opaque, and larger than the first model's.

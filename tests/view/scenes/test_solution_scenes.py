@@ -10,6 +10,7 @@ from poekin.errors import InputError
 from poekin.view.nodes import Label, Triangles
 from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.solutions import solutions_scene
+from poekin.view.scenes.stage import make_stage
 from poekin.view.scenes.targets import MOST, configuration_words, solution_scene
 from tests.view.narrowed import all_of
 
@@ -118,6 +119,11 @@ def test_what_cannot_be_drawn_is_refused_in_words():
         solution_scene(pk.ik(ARM, bad))
     with pytest.raises(InputError, match="expected the robot of the chain from 'base' to 'tool'"):
         solution_scene(pk.ik(ARM, T), pk.load("panda"))
+    for own in ({"tip": "hand"}, {"base": "table"}):
+        with pytest.raises(
+            InputError, match=r"^robot: .*, got 'ur5' without these links, or without"
+        ):
+            make_stage(ARM.replace(**own), None, ROBOT)
 
 
 def test_a_pose_without_solutions_is_shown_with_its_sentence():
