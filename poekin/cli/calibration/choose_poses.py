@@ -106,7 +106,6 @@ def command(
     array_files.check_place(output, TABLES)
     given = None if candidates.isdecimal() else candidates
     array_files.check_apart([output], model=file, candidates=given, measurements=measured)
-    choice(criterion, CRITERIA, "--criterion")
     units = SaidUnits(mm, deg)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
@@ -194,10 +193,8 @@ def _no_camera(kind: str) -> str:
 
 _OPTIONS = {
     "n: ": "N: ",
-    "candidates: ": "--candidates: ",
     "candidates[": "--candidates, row [",
     "allowed: ": "--box, --cone: ",
-    "workspace: ": "--workspace: ",
     "measurements: Distances: expected centre=": "--centre: expected with distances",
 }
 _PREDICATES = "predicates that allow more, or candidates (K, m) that they allow"

@@ -14,7 +14,7 @@ from poekin.solve.calibration import Points, Poses, WorkspaceBox, identify
 from poekin.solve.calibration.design import candidates as drawing
 from poekin.solve.calibration.design.candidates import drawn, parse_workspace
 
-HOME = pk.se3.exp([0, 0, 0, 0.2, 0, 0.1])
+HOME = pk.se3.exp([0, 0, 0, 0.9, 0, 0.8])  # of a reach beyond 1 m
 ARM = pk.Chain.from_space(
     [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([0, 1, 0], [0.3, 0, 0.5])],
     HOME,
@@ -103,7 +103,8 @@ def test_a_workspace_is_drawn_where_its_predicates_allow(monkeypatch):
     for workspace in (right, [right]):
         where = parse_workspace(ARM, workspace, 3)
         assert where.shape == (40, 2)
-        assert (where[:, 0] < 0).all()
+        q = ARM.random(np.random.default_rng((3, 2)), 200)  # a stream of their own
+        assert np.array_equal(where, q[q[:, 0] < 0][:40])
     choice = choose(ARM, 6, Q, workspace=right, n_random=2, seed=3)
     assert choice.metrics.prediction == pytest.approx(np.sqrt(variance(choice.q, where)), rel=1e-6)
 
