@@ -14,6 +14,7 @@ from ...model.chain import Chain
 from ...model.sampling import angle_mask
 from ...sweep.maps import map_files
 from ...sweep.maps.reach import reach
+from ...sweep.masks.self_collision import SelfCollision
 from ...sweep.measures.measure import Measure
 from ...sweep.measures.names import measure_of
 from ...sweep.measures.pose_uncertainty import ErrorPart, PoseUncertainty
@@ -62,6 +63,13 @@ Measured = Annotated[MeasureName, Option("--measure", help="What is kept of each
 Kept = Annotated[
     KeepName, Option("--keep", help="Keep the best, the worst or the mean measure of a cell.")
 ]
+SelfCollisionFree = Annotated[
+    bool,
+    Option(
+        "--self-collision",
+        help="Leave configurations out in which spheres around the robot's collision geometry touch.",
+    ),
+]
 SigmaAngle = Annotated[
     float | None,
     Option(
@@ -105,6 +113,7 @@ def command(
     keep: Kept = KeepName.best,
     sigma_angle: SigmaAngle = None,
     sigma_length: SigmaLength = None,
+    self_collision: SelfCollisionFree = False,
     seed: Seed = 0,
     tip: Tip = None,
     base: Base = None,
@@ -125,7 +134,9 @@ def command(
         raise InputError(
             "--resume: expected with --store and the directory of the run to go on with"
         )
-    chain = model(file).chain(base=base, tip=tip)
+    robot = model(file)
+    chain = robot.chain(base=base, tip=tip)
+    mask = SelfCollision.of_robot(robot, chain) if self_collision else None
     with executor(scheduler) as runs, Progress("sweep") as progress:
         found = reach(
             chain,
@@ -134,6 +145,7 @@ def command(
             side=side,
             measure=_measure(measure, chain, sigma_angle, sigma_length),
             keep=keep.value,
+            mask=mask,
             seed=seed,
             workers=workers,
             executor=runs,
@@ -147,6 +159,8 @@ def command(
         print(as_json(found.to_dict()))
     else:
         say(found.summary())
+        if mask is not None:
+            say(f"\n{mask.summary()}")
         if output is not None:
             say(f"\nthe map: {path_text(output)}")
     raise Exit(0)

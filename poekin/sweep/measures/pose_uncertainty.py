@@ -191,16 +191,7 @@ class PoseUncertainty(Measure):
 
     def program(self, chain: Chain) -> Program:
         """Pose, and squares of what the sources do."""
-        home = [*chain.home[:3, :3].ravel().tolist(), *chain.home[:3, 3].tolist()]
-        return error_program(
-            chain.screws.tolist(),
-            home,
-            chain.coupling.tolist(),
-            chain.offset.tolist(),
-            self.sources,
-            self.part == "orientation",
-            not self.bound,
-        )
+        return error_program(chain, self.sources, self.part == "orientation", not self.bound)
 
     def outputs(self, chain: Chain) -> int:
         """The sum, or a square for each source."""
