@@ -124,12 +124,15 @@ def swept(
         end = min(last - start, BLOCK)
         if is_masked:
             outside -= _leave_out(masked, begin, end, found, values)
-        # in loops of their own, so that the processor waits for the memory of many cells at once
+        # in a loop of its own, so that the processor waits for the memory of many cells at once
+        if best.size > 0 and cells[0] != TOP:
+            outside += _keep_best(
+                measure[SIGN], values, found, begin, end, start, counts, best, attained
+            )
+            continue
         outside += _count(found, begin, end, counts)
         if cells[0] == TOP:
             _keep_top(measure[SIGN], values, begin, end, start, best, attained)
-        elif best.size > 0:
-            _keep_best(measure[SIGN], values, found, begin, end, start, best, attained)
         elif sums.size > 0:
             _add(values, found, begin, end, sums, attained)
     return outside
@@ -157,13 +160,22 @@ def _count(found, begin, end, counts):
     return outside
 
 
-def _keep_best(sign, values, found, begin, end, start, best, attained):
+def _keep_best(sign, values, found, begin, end, start, counts, best, attained):
+    """Counts samples in their cells and keeps the best measure of each, in one pass over the memory.
+    Returns how many lie in none.
+    """
+    outside = 0
     for k in range(begin, end):
         cell = found[k]
-        value = sign * values[k]
-        if cell != OUTSIDE and value > best[cell]:
-            best[cell] = value
-            attained[cell] = start + k
+        if cell == OUTSIDE:
+            outside += 1
+        else:
+            counts[cell] += 1
+            value = sign * values[k]
+            if value > best[cell]:
+                best[cell] = value
+                attained[cell] = start + k
+    return outside
 
 
 def _keep_top(sign, values, begin, end, start, best, attained):
