@@ -13,7 +13,7 @@ from .calibration import apply, calibrate, choose_poses
 from .kinematics import fk, follow, ik, jacobian, singularity
 from .model import takes_models
 from .models import axes, compare, count, dh, emit, info, urdf, validate, view
-from .sweep import base, reach, show
+from .sweep import base, histogram, reach, show, top
 
 app = typer.Typer(
     add_completion=False,
@@ -43,6 +43,8 @@ sweeps = typer.Typer(
     help="Maps over many configurations: where a tool can be.",
 )
 sweeps.command("reach")(takes_models(reach.command))
+sweeps.command("top")(takes_models(top.command))
+sweeps.command("histogram")(takes_models(histogram.command))
 sweeps.command("show")(show.command)
 sweeps.command("base")(base.command)
 app.add_typer(sweeps, name="sweep")

@@ -10,6 +10,7 @@ from .maps.histogram import MeasureHistogram, histogram
 from .maps.reach import reach
 from .maps.sweep_map import SweepMap, load_map
 from .maps.top import TopSamples, top
+from .masks.self_collision import SelfCollision
 from .measures.dexterity import InverseCondition, SmallestSingularValue
 from .measures.joints import JointTravel, LimitMargin
 from .measures.monte_carlo import DrawnErrors, monte_carlo
@@ -28,6 +29,7 @@ __all__ = [
     "MeasureHistogram",
     "PoseUncertainty",
     "Random",
+    "SelfCollision",
     "SmallestSingularValue",
     "Sobol",
     "Sweep",

@@ -15,6 +15,7 @@ from ..errors import InputError
 from ..model.chain import Chain
 from .bins import Bins, TopList
 from .cells import Cells
+from .masks.self_collision import SelfCollision
 from .measures.measure import Measure, Reach
 from .measures.names import MeasureName, measure_of
 from .samples import Samples
@@ -41,12 +42,14 @@ class Sweep:
         parameters, such as `PoseUncertainty`.
     keep : {"best", "worst", "mean"}
         Whether the best or the worst measure of a cell is kept, with its first sample, or the mean.
+    mask : SelfCollision, optional
+        Samples that it leaves out: they count nowhere.
 
     Raises
     ------
     InputError
-        If there is no such measure, the arm has it not, or the samples have another number of
-        coordinates.
+        If there is no such measure, the arm has it not, the mask is another arm's, or the samples
+        have another number of coordinates.
     """
 
     chain: Chain
@@ -54,10 +57,13 @@ class Sweep:
     cells: Cells | Bins | TopList
     measure: Measure | MeasureName = "reach"
     keep: Keep = "best"
+    mask: SelfCollision | None = None
 
     def __post_init__(self) -> None:
         choice(self.keep, get_args(Keep), "keep")
         self.measured.check(self.chain)
+        if self.mask is not None:
+            self.mask.check(self.chain)
         if not self.is_measured and not isinstance(self.cells, Cells):
             raise InputError("measure: expected a measure to keep, got 'reach'")
         if len(self.samples.lower) != self.chain.dof:
@@ -97,7 +103,7 @@ class Sweep:
         document : dict
             Names, numbers and lists of numbers, in SI units.
         """
-        return {
+        document = {
             "base": self.chain.base,
             "tip": self.chain.tip,
             "q_names": list(self.chain.q_names),
@@ -106,6 +112,9 @@ class Sweep:
             "keep": self.keep,
             "samples": self.samples.describe(),
         } | self.cells.describe()
+        if self.mask is not None:
+            document["mask"] = self.mask.describe()
+        return document
 
     def key(self) -> str:
         """SHA-256 of the sweep, its arm and the formulas that run: equal keys have equal results.

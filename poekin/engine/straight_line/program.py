@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ..count import Count
 from .trace import FOLD_TOLERANCE, Graph, Node, Traced, folded
@@ -126,6 +126,50 @@ def program(graph: Graph, angles: Angles, outputs: Sequence[Traced | float]) -> 
         steps.append((number, node))
     ends = tuple(map(_end, outputs))
     return Program(tuple(chosen), tuple(steps), ends, _count(chosen, steps))
+
+
+def joined(first: Program, second: Program) -> Program:
+    """Both programs as one, its outputs those of the first, with its bits, and of the second behind
+    them: what they have in common is computed once.
+    """
+    angles = list(first.angles)
+    places: list[int] = []
+    for angle in second.angles:
+        base = None if angle.base is None else places[angle.base]
+        moved = replace(angle, base=base)
+        if moved not in angles:
+            angles.append(moved)
+        places.append(angles.index(moved))
+    steps = list(first.steps)
+    known = {node: number for number, node in steps}
+    after = max(known.values(), default=-1) + 1
+    moved_to: dict[int, int] = {}
+    for number, node in second.steps:
+        here = _renumbered(node, places, moved_to)
+        there = known.setdefault(here, after + number)
+        if there == after + number:
+            steps.append((there, here))
+        moved_to[number] = there
+    ends = list(first.outputs)
+    for end, sign in second.outputs:
+        if end is not None:
+            end = moved_to[end]
+        ends.append((end, sign))
+    count = _count(angles, steps)
+    return Program(tuple(angles), tuple(steps), tuple(ends), count)
+
+
+def _renumbered(node: Node, angles: Sequence[int], numbers: dict[int, int]) -> Node:
+    """A node by other numbers of angles and nodes."""
+    j = _angle_number(node)
+    if j is not None:
+        part = int(node.first) % 2
+        return Node("input", 2 * angles[j] + part)
+    if node.kind in ("product", "sum"):
+        node = node._replace(first=numbers[int(node.first)])
+    if node.kind in ("scaled", "reciprocal", "product", "sum"):
+        node = node._replace(second=numbers[node.second])
+    return node
 
 
 def _angle_number(node: Node) -> int | None:

@@ -1,7 +1,7 @@
 """Visuals of a URDF.
 
 Source: the URDF specification (<visual>, <material>) and urdfdom: of materials of one name the one
-below <robot> counts, else the first that has a colour. <collision> is not drawn.
+below <robot> counts, else the first that has a colour. <collision> is read likewise.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from ...model.provenance import Source
 from ..text import xml
 from ..text.xml_reader import Fields
 from ..urdf import origin_of, reads_quaternions
-from .visual import Color, LeftOut, Shape, Visual, Visuals
+from .visual import Color, LeftOut, Shape, ShapeTag, Visual, Visuals
 
 _NUMBERS = {
     "cylinder": ("radius", "length"),
@@ -22,10 +22,11 @@ _NUMBERS = {
 }
 
 
-def read(text: str | bytes, name: str) -> Visuals:
-    """Visuals of the text of a URDF that was read as a robot; `name` stands for the file.
+def read(text: str | bytes, name: str, tag: ShapeTag = "visual") -> Visuals:
+    """Shapes of the text of a URDF that was read as a robot; `name` stands for the file, `tag` for the
+    elements that they are read from.
 
-    A visual that cannot be understood is left out, with the reason.
+    A shape that cannot be understood is left out, with the reason.
     """
     root = xml.parse(text, name, tell=False)
     top = Fields(root, Source(name))
@@ -36,13 +37,13 @@ def read(text: str | bytes, name: str) -> Visuals:
     found = []
     left_out = []
     for link in top.all("link"):
-        for element in link.children("visual"):
+        for element in link.children(tag):
             try:
                 found.append(_visual(element, link.name("name"), quaternions, colors))
             except ModelError as fault:
                 place = element.source.place(element.line)
                 why = str(fault).removeprefix(f"{place}: ")
-                left_out.append(LeftOut(link.name("name"), place, "<visual>", why))
+                left_out.append(LeftOut(link.name("name"), place, f"<{tag}>", why))
     return Visuals(tuple(found), tuple(left_out))
 
 

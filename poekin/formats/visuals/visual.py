@@ -10,6 +10,7 @@ import numpy as np
 from ...groups.arrays import Array
 
 Shape = Literal["mesh", "box", "cylinder", "sphere", "capsule", "ellipsoid"]
+ShapeTag = Literal["visual", "collision"]
 Color = tuple[float, float, float, float]
 """Red, green, blue and opacity, from 0 to 1."""
 

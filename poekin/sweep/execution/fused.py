@@ -1,4 +1,4 @@
-"""Machine code of an arm's pose and measure, for the kernel of sweeps."""
+"""Machine code of an arm's pose, measure and mask, for the kernel of sweeps."""
 
 from __future__ import annotations
 
@@ -7,26 +7,35 @@ from typing import TYPE_CHECKING
 
 from ...errors import InputError
 from ...model.chain import Chain
+from ..masks.self_collision import SelfCollision
 from ..measures.measure import Measure
 
 if TYPE_CHECKING:
     from ...engine.straight_line.arm_code import ArmCode
+    from ...engine.straight_line.program import Program
 
 _KEPT = 16
 
 
 # by the chain's and the measure's numbers: a worker gets both anew with each part
 @functools.lru_cache(_KEPT)
-def fused(chain: Chain, measure: Measure) -> ArmCode:
-    """Code that gives the pose, and what the measure is made of behind it. Raises: InputError."""
+def fused(chain: Chain, measure: Measure, mask: SelfCollision | None = None) -> ArmCode:
+    """Code that gives the pose, and what the measure and the mask are made of behind it. Raises:
+    InputError.
+    """
     from numba.core import config
 
     from ...engine.straight_line.arm_code import arm_code  # which imports Numba
+    from ...engine.straight_line.program import joined
 
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         raise InputError("sweep: runs machine code alone, and NUMBA_DISABLE_JIT is set")
 
+    def make() -> Program:
+        program = measure.program(chain)
+        return program if mask is None else joined(program, mask.program(chain))
+
     measure.check(chain)
     numbers = [x.tolist() for x in (chain.screws, chain.home, chain.coupling, chain.offset)]
-    key = (chain.compile().structure, measure.name, measure, numbers)
-    return arm_code(key, lambda: measure.program(chain), chain.dof, True, "columns")
+    key = (chain.compile().structure, measure.name, measure, numbers, mask)
+    return arm_code(key, make, chain.dof, True, "columns")

@@ -69,7 +69,8 @@ class Totals:
         measure = sweep.measured
         is_sum = self.rule == "sum"
         # the code is held until the calls are over
-        code = fused(sweep.chain, measure)
+        code = fused(sweep.chain, measure, sweep.mask)
+        pairs, radii = (_NO_SUMS, _NONE) if sweep.mask is None else sweep.mask.numbers()
         for start in range(first, last, _AT_ONCE):
             self.outside += sweep_kernel.swept.call(
                 code.address,
@@ -81,6 +82,8 @@ class Totals:
                 cells.place(),
                 measure.whole_numbers(sweep.chain, sweep.sign),
                 measure.numbers(sweep.chain),
+                pairs,
+                radii,
                 self.counts,
                 _NONE if is_sum else self.best,
                 self.attained,

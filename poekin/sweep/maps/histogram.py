@@ -16,6 +16,7 @@ from ...model.kinematics.arm import Arm, chain_of
 from ...results import Result
 from ..bins import Bins
 from ..execution.run import RunOptions, run_totals
+from ..masks.self_collision import SelfCollision
 from ..measures.measure import Measure
 from ..measures.names import LABELS, MeasureName
 from ..samples import Samples, samples_of
@@ -76,6 +77,7 @@ def histogram(
     bins: int = 100,
     ends: tuple[float, float] | None = None,
     samples: int | Samples = 10_000_000,
+    mask: SelfCollision | None = None,
     **options: Unpack[RunOptions],
 ) -> MeasureHistogram:
     """Counts configurations by their measure.
@@ -92,6 +94,8 @@ def histogram(
         Ends of the bins, in SI units; by default those of 100 000 configurations.
     samples : int or Samples, default 10000000
         Number of random configurations, or `Random`, `Sobol` or `Grid` ones.
+    mask : SelfCollision, optional
+        Configurations that it leaves out count nowhere.
     **options
         Options of `run`; the result does not depend on them, to the last bit.
 
@@ -126,7 +130,7 @@ def histogram(
         ends = _tried(arm, drawn, measure)
     else:
         ends = _checked(ends)
-    sweep = Sweep(arm, drawn, Bins(*ends, bins), measure)
+    sweep = Sweep(arm, drawn, Bins(*ends, bins), measure, mask=mask)
     totals = run_totals(sweep, **options)
     edges = np.linspace(*ends, bins + 1)
     return MeasureHistogram(sweep.describe(), edges, totals.counts, totals.outside)

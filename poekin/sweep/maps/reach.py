@@ -13,6 +13,7 @@ from ...model.kinematics.arm import Arm, chain_of
 from ...results import Progress
 from ..cells import Cells
 from ..execution.run import Executor, run
+from ..masks.self_collision import SelfCollision
 from ..measures.measure import Measure
 from ..measures.names import MeasureName
 from ..samples import Random
@@ -31,6 +32,7 @@ def reach(  # noqa: PLR0913 - options by keyword
     side: int = 0,
     measure: Measure | MeasureName = "reach",
     keep: Keep = "best",
+    mask: SelfCollision | None = None,
     seed: int = 0,
     chunk: int | None = None,
     workers: int | None = None,
@@ -58,6 +60,8 @@ def reach(  # noqa: PLR0913 - options by keyword
         What is kept of each cell besides counts, as `Sweep` has it.
     keep : {"best", "worst", "mean"}, default "best"
         Whether the best or the worst measure of a cell is kept, with its configuration, or the mean.
+    mask : SelfCollision, optional
+        Configurations that it leaves out count nowhere.
     seed : int, default 0
         Seed of the configurations.
     chunk : int, optional
@@ -110,7 +114,7 @@ def reach(  # noqa: PLR0913 - options by keyword
     drawn = Random.of(arm, samples, seed)
     cells = _around(arm, drawn, size, side)
     return run(
-        Sweep(arm, drawn, cells, measure, keep),
+        Sweep(arm, drawn, cells, measure, keep, mask),
         chunk=chunk,
         workers=workers,
         executor=executor,

@@ -98,6 +98,11 @@ class SweepMap(Result):
         """
         return np.count_nonzero(self.counts == 1) / self.samples.count
 
+    @property
+    def masked(self) -> int:
+        """Number of samples that the sweep's mask left out."""
+        return self.samples.count - int(self.counts.sum()) - self.outside
+
     def summary(self) -> str:
         """Numbers of samples, and how much was reached.
 
@@ -112,6 +117,8 @@ class SweepMap(Result):
             f"{self.samples.count} configurations, {self.outside} of them outside the map",
             f"{self.reached_volume:.4g} m³ of {whole:.4g} m³ reached, in cubes of {1e3 * cells.resolution:.4g} mm",
         ]
+        if "mask" in self.about:
+            lines[0] += f", {self.masked} left out as the arm touches itself"
         if self.capability_range is not None:
             mean, most = self.capability_range
             lines.append(

@@ -14,6 +14,8 @@ from ...model.kinematics.arm import Arm, chain_of
 from ...results import Result
 from ..bins import TopList
 from ..execution.run import RunOptions, run_totals
+from ..execution.totals import NO_SAMPLE
+from ..masks.self_collision import SelfCollision
 from ..measures.measure import Measure
 from ..measures.names import LABELS, MeasureName
 from ..samples import Samples, samples_of
@@ -68,6 +70,7 @@ def top(
     *,
     keep: Keep = "best",
     samples: int | Samples = 10_000_000,
+    mask: SelfCollision | None = None,
     **options: Unpack[RunOptions],
 ) -> TopSamples:
     """Finds the configurations with the best measures.
@@ -79,11 +82,13 @@ def top(
     measure : Measure or str
         The measure, as `Sweep` has it.
     count : int, default 10
-        Number of configurations; fewer where there are fewer samples.
+        Number of configurations; fewer where fewer samples are left.
     keep : {"best", "worst"}, default "best"
         Whether the best or the worst are found.
     samples : int or Samples, default 10000000
         Number of random configurations, or `Random`, `Sobol` or `Grid` ones.
+    mask : SelfCollision, optional
+        Configurations that it leaves out count nowhere.
     **options
         Options of `run`; the result does not depend on them, to the last bit.
 
@@ -95,7 +100,8 @@ def top(
     Raises
     ------
     InputError
-        If an option cannot be used, the measure is "reach" or keep is "mean".
+        If an option cannot be used, the measure is "reach", keep is "mean", or the mask leaves
+        no configuration.
     FileError
         If the store cannot be read or written.
 
@@ -117,10 +123,13 @@ def top(
     if keep == "mean":
         raise InputError("keep: expected 'best' or 'worst', got 'mean'")
     best = TopList(min(count, drawn.count))
-    sweep = Sweep(arm, drawn, best, measure, keep)
+    sweep = Sweep(arm, drawn, best, measure, keep, mask)
     totals = run_totals(sweep, **options)
     about = sweep.describe() | {"count": drawn.count}
-    values = sweep.sign * totals.best
-    numbers = totals.attained
+    is_found = totals.attained != NO_SAMPLE
+    values = sweep.sign * totals.best[is_found]
+    numbers = totals.attained[is_found]
+    if not len(numbers):
+        raise InputError("top: no configuration has a measure, or all are left out")
     q = drawn.configurations(numbers)
     return TopSamples(about, values, numbers, q)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...algebra import translation
 from ...engine.straight_line.program import Angles, Program, program
@@ -16,27 +16,30 @@ from ...formulas.kinematics.screw_changes import (
     squared_rotation,
 )
 from ...formulas.lie import exponential
+from ...groups.vectors import rotation_part, translation_part
+from ...model.chain import Chain
 
 Rows = Sequence[Sequence[float]]
 
 
-def error_program(
-    screws: Rows,
-    home: Sequence[float],
-    coupling: Rows,
-    offset: Sequence[float],
-    sources: Sequence[Rows],
-    is_rotation: bool,
-    summed: bool,
-) -> Program:
-    """The pose's twelve numbers, and the squares of the tool's displacement (m²) or rotation (rad²) by
-    each source, or their sum.
+class TracedProducts(NamedTuple):
+    """Poses P_0 ... P_n, f as rows of scalars that record, as `formulas.kinematics.screw_changes` has
+    them.
     """
+
+    graph: Graph
+    angles: Angles
+    P: list[Any]
+
+
+def traced_products(chain: Chain) -> TracedProducts:
+    """Products of an arm's exponentials."""
     graph = Graph()
     angles = Angles(graph)
-    n = len(screws)
+    n = len(chain.screws)
     exponentials: list[Any] = []
-    for S, row, shift in zip(screws, coupling, offset, strict=True):
+    joints = (chain.screws.tolist(), chain.coupling.tolist(), chain.offset.tolist())
+    for S, row, shift in zip(*joints, strict=True):
         w = tuple(S[:3])
         sine: Any = 0.0
         cosine: Any = 1.0
@@ -44,8 +47,25 @@ def error_program(
             sine, cosine = angles.sine_cosine(row, shift, 0)
         x = graph.linear([(k, factor) for k, factor in enumerate(row) if factor], shift)
         exponentials.append(exponential.joint(w, tuple(S[3:]), x, sine, cosine))
+    R = rotation_part(chain.home).ravel()
+    p = translation_part(chain.home)
+    home = (*R.tolist(), *p.tolist())
     P: list[Any] = [[0.0] * 12 for _ in range(n + 2)]
-    products(exponentials, tuple(home), n, P)
+    products(exponentials, home, n, P)
+    return TracedProducts(graph, angles, P)
+
+
+def error_program(
+    chain: Chain,
+    sources: Sequence[Rows],
+    is_rotation: bool,
+    summed: bool,
+) -> Program:
+    """The pose's twelve numbers, and the squares of the tool's displacement (m²) or rotation (rad²) by
+    each source, or their sum.
+    """
+    graph, angles, P = traced_products(chain)
+    n = len(chain.screws)
     D: list[Any] = [[[0.0] * 6 for _ in range(n + 1)] for _ in range(6)]
     pose_changes(P, n, D)
     p = translation(P[n + 1])

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from ...checks import choice
 from ...errors import InputError
 from ...groups.arrays import Array
-from ...groups.vectors import rotation_part, translation_part
 from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, chain_of
 from ...solve.calibration.result import CalibrationData
@@ -192,18 +191,7 @@ class PoseUncertainty(Measure):
 
     def program(self, chain: Chain) -> Program:
         """Pose, and squares of what the sources do."""
-        R = rotation_part(chain.home).ravel()
-        p = translation_part(chain.home)
-        home = [*R.tolist(), *p.tolist()]
-        return error_program(
-            chain.screws.tolist(),
-            home,
-            chain.coupling.tolist(),
-            chain.offset.tolist(),
-            self.sources,
-            self.part == "orientation",
-            not self.bound,
-        )
+        return error_program(chain, self.sources, self.part == "orientation", not self.bound)
 
     def outputs(self, chain: Chain) -> int:
         """The sum, or a square for each source."""

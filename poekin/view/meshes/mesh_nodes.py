@@ -53,7 +53,7 @@ def mesh_nodes(robot: Robot) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]
     """
     found, left_out = visuals_of(robot)
     missing = list(left_out)
-    reader = _Reader(robot)
+    reader = ShapeReader(robot)
     drawn: list[tuple[Visual, tuple[MeshPart, ...]]] = []
     for number, visual in enumerate(found):
         try:
@@ -80,7 +80,7 @@ def mesh_nodes(robot: Robot) -> tuple[tuple[Triangles, ...], tuple[LeftOut, ...]
             if visual.color is not None:
                 color = rgb(255 * c for c in visual.color)
             group = pieces.setdefault(_Look(visual.link, color, opacity), [])
-            group.append(_placed(visual, vertices, faces))
+            group.append(placed(visual, vertices, faces))
     nodes = []
     for look, group in pieces.items():
         attachment = Attachment(
@@ -116,7 +116,7 @@ class _Reduced(NamedTuple):
     off: float
 
 
-class _Reader:
+class ShapeReader:
     """Reader of the meshes of one robot, each file once; shapes of one size are made once."""
 
     def __init__(self, robot: Robot) -> None:
@@ -173,7 +173,7 @@ def _primitive(visual: Visual) -> Surface:
     return Surface(unit.vertices * factors, unit.faces)
 
 
-def _placed(visual: Visual, vertices: np.ndarray, faces: np.ndarray) -> Surface:
+def placed(visual: Visual, vertices: np.ndarray, faces: np.ndarray) -> Surface:
     """Triangles in the frame of their link, facing outwards still where a factor mirrors them."""
     points = np.asarray(vertices, dtype=float)
     if visual.shape == "mesh":

@@ -12,6 +12,7 @@ import pytest
 import poekin as pk
 from poekin.sweep import load_map
 from poekin.sweep.measures.names import MeasureName
+from tests.sweep.masks.arm_of_all_shapes import robot_in
 
 FEW = ("--samples", "2e4", "--resolution", "0.2", "--tip", "tool0")
 
@@ -131,3 +132,14 @@ def test_a_map_is_not_written_over_the_model_and_what_is_no_map_is_refused(tmp_p
         "sweep", "reach", str(model), "--output", str(model)
     )
     assert "no map of a sweep" in refused("sweep", "show", str(model))
+
+
+def test_configurations_in_which_the_arm_touches_itself_are_left_out(tmp_path, poekin):
+    robot = robot_in(tmp_path)
+    arm = robot.chain(tip="hand")
+    mask = pk.sweep.SelfCollision.of_robot(robot, arm)
+    words = ("--samples", "1000", "--resolution", "0.5", "--self-collision")
+    code, out, _ = poekin("sweep", "reach", str(tmp_path / "r.urdf"), *words)
+    own = pk.sweep.reach(arm, samples=1000, resolution=0.5, mask=mask)
+    assert (code, own.masked > 0) == (0, True)
+    assert out == f"{own.summary()}\n\n{mask.summary()}\n"

@@ -3,7 +3,8 @@
 Samples come as whole numbers, kind, seed and the counts of a grid, and bounds: lower ends and widths
 (2, m). Cells come as whole numbers, tiles along a face's side (0 for none) and cubes along x, y and
 z, and a place: the corner, m, and cubes per m. Bins of a measure come as BINS and their number, and
-a place: where they begin, two zeros, and bins per unit. A measure comes as `measures` says.
+a place: where they begin, two zeros, and bins per unit. A measure comes as `measures` says, pairs of
+links and radii of spheres as `self_collision` does: none where samples are not masked.
 
 Blocks begin at multiples of their length wherever a range does, and nothing is fused, so that a
 sample's numbers do not depend on the range or the processor. Importing this module imports Numba.
@@ -30,6 +31,7 @@ from .measures import (
 )
 from .root import root
 from .samples import write_samples
+from .self_collision import collides
 from .tiles import OUTSIDE, cell_of
 
 BINS, TOP = -1, -2
@@ -47,7 +49,7 @@ def _write_cells(cells, place, R_p, found, first):
         found[first + lane] = cell_of(cells, place, p, axis)
 
 
-@kernel("int int int i1 r2 i1 r1 i1 r1 n1 w1 n1 n1", returns="int", portable=True)
+@kernel("int int int i1 r2 i1 r1 i1 r1 i1 r1 n1 w1 n1 n1", returns="int", portable=True)
 def swept(
     arm,
     first,
@@ -58,13 +60,16 @@ def swept(
     place,
     measure,
     numbers,
+    pairs,
+    radii,
     counts,
     best,
     attained,
     sums,
 ):
     """Samples first ... last - 1: how many lie in each cell is added to `counts`. Returns how many lie
-    in none. The measure, times its sign, is kept by arrays that are not empty:
+    in none; a sample in which spheres touch counts in neither. The measure, times its sign, is kept
+    by arrays that are not empty:
 
     - `best` and `attained`, as long as `counts`: the largest of each cell, and the first sample that
       has it
@@ -80,7 +85,10 @@ def swept(
     sines = np.empty((sines_room(arm), BLOCK))
     cosines = np.empty((sines_room(arm), BLOCK))
     R_p = np.empty((12, LANES))
-    outputs = np.empty((measure[OUTPUTS], LANES))
+    every = np.empty((measure[OUTPUTS] + 3 * len(radii), LANES))
+    outputs = every[: measure[OUTPUTS]]
+    centres = every[measure[OUTPUTS] :]
+    masked = np.zeros(BLOCK, np.bool_)
     W = matrix_room(measure)
     four = np.empty(LANES)
     values = np.empty(BLOCK)
@@ -88,12 +96,13 @@ def swept(
     kind = measure[KIND]
     is_root = kind == ROOT and measure[OUTPUTS] == 1
     is_spatial = cells[0] >= 0
+    is_masked = len(radii) > 0
     outside = 0
     for start in range(first - first % BLOCK, last, BLOCK):
         write_samples(samples, bounds, start, q)
         sines_of_block(arm, q, sines, cosines)
         for k in range(0, BLOCK, LANES):
-            run_columns(arm, sines, cosines, k, q, R_p, outputs)
+            run_columns(arm, sines, cosines, k, q, R_p, every)
             if is_spatial:
                 _write_cells(cells, place, R_p, found, k)
             if is_root:
@@ -101,6 +110,9 @@ def swept(
                     values[k + lane] = outputs[0, lane]
             elif kind in OF_OUTPUTS:
                 measure_lanes(measure, numbers, outputs, W, four, values, k)
+            if is_masked:
+                for lane in range(LANES):
+                    masked[k + lane] = collides(pairs, radii, centres, lane)
         if is_root:
             for k in range(BLOCK):
                 values[k] = root(values[k])
@@ -110,15 +122,31 @@ def swept(
             _write_bins(cells, place, values, found)
         begin = max(first - start, 0)
         end = min(last - start, BLOCK)
-        # in loops of their own, so that the processor waits for the memory of many cells at once
+        if is_masked:
+            outside -= _leave_out(masked, begin, end, found, values)
+        # in a loop of its own, so that the processor waits for the memory of many cells at once
+        if best.size > 0 and cells[0] != TOP:
+            outside += _keep_best(
+                measure[SIGN], values, found, begin, end, start, counts, best, attained
+            )
+            continue
         outside += _count(found, begin, end, counts)
         if cells[0] == TOP:
             _keep_top(measure[SIGN], values, begin, end, start, best, attained)
-        elif best.size > 0:
-            _keep_best(measure[SIGN], values, found, begin, end, start, best, attained)
         elif sums.size > 0:
             _add(values, found, begin, end, sums, attained)
     return outside
+
+
+def _leave_out(masked, begin, end, found, values):
+    """Puts samples that are masked into no cell, with no measure. Returns how many there are."""
+    count = 0
+    for k in range(begin, end):
+        if masked[k]:
+            found[k] = OUTSIDE
+            values[k] = np.nan
+            count += 1
+    return count
 
 
 def _count(found, begin, end, counts):
@@ -132,13 +160,22 @@ def _count(found, begin, end, counts):
     return outside
 
 
-def _keep_best(sign, values, found, begin, end, start, best, attained):
+def _keep_best(sign, values, found, begin, end, start, counts, best, attained):
+    """Counts samples in their cells and keeps the best measure of each, in one pass over the memory.
+    Returns how many lie in none.
+    """
+    outside = 0
     for k in range(begin, end):
         cell = found[k]
-        value = sign * values[k]
-        if cell != OUTSIDE and value > best[cell]:
-            best[cell] = value
-            attained[cell] = start + k
+        if cell == OUTSIDE:
+            outside += 1
+        else:
+            counts[cell] += 1
+            value = sign * values[k]
+            if value > best[cell]:
+                best[cell] = value
+                attained[cell] = start + k
+    return outside
 
 
 def _keep_top(sign, values, begin, end, start, best, attained):

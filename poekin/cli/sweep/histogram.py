@@ -1,0 +1,79 @@
+"""`poekin sweep histogram`: how often a measure has which value."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Annotated
+
+from typer import Exit, Option
+
+from ...sweep.maps.histogram import histogram
+from ...sweep.masks.self_collision import SelfCollision
+from ..kinematics.arm import Base, File, Json, Seed, Tip
+from ..model import model
+from ..output import Progress, as_json, number, say, table
+from .options import (
+    Measured,
+    MeasureName,
+    Samples,
+    SelfCollisionFree,
+    SigmaAngle,
+    SigmaLength,
+    Workers,
+    measure_from,
+    samples_from,
+)
+from .scheduler import Scheduler, executor
+
+Bins = Annotated[int, Option("--bins", min=1, help="Number of bins.")]
+Ends = Annotated[
+    tuple[float, float] | None,
+    Option("--ends", help="Ends of the bins, in SI units (default: of 100000 configurations)."),
+]
+
+
+def command(
+    file: File,
+    measure: Measured = MeasureName.manipulability,
+    bins: Bins = 20,
+    ends: Ends = None,
+    samples: Samples = "1e7",
+    sigma_angle: SigmaAngle = None,
+    sigma_length: SigmaLength = None,
+    self_collision: SelfCollisionFree = False,
+    seed: Seed = 0,
+    tip: Tip = None,
+    base: Base = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    json: Json = False,
+) -> None:
+    """Numbers of configurations of FILE, drawn at random, by their measure. Exit code 0 done, 2
+    error.
+    """
+    robot = model(file)
+    chain = robot.chain(base=base, tip=tip)
+    mask = SelfCollision.of_robot(robot, chain) if self_collision else None
+    with executor(scheduler) as runs, Progress("sweep") as progress:
+        found = histogram(
+            chain,
+            measure_from(measure, chain, sigma_angle, sigma_length),
+            bins=bins,
+            ends=ends,
+            samples=samples_from(chain, samples, seed),
+            mask=mask,
+            workers=workers,
+            executor=runs,
+            progress=progress,
+        )
+    if json:
+        print(as_json(found.to_dict()))
+        raise Exit(0)
+    say(f"{found.summary()}\n")
+    edges = pairwise(found.edges)
+    rows = [
+        (number(low), number(high), count)
+        for (low, high), count in zip(edges, found.counts.tolist(), strict=True)
+    ]
+    table(("from", "to", "configurations"), rows, left=0)
+    raise Exit(0)

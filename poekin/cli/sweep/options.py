@@ -1,0 +1,115 @@
+"""Options that the commands of sweeps share, and what they say."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+import numpy as np
+from typer import Option
+
+from ...errors import InputError
+from ...model.chain import Chain
+from ...model.sampling import angle_mask
+from ...sweep.measures.measure import Measure
+from ...sweep.measures.names import measure_of
+from ...sweep.measures.pose_uncertainty import ErrorPart, PoseUncertainty
+from ...sweep.samples import Random
+from ..output import path_text
+
+
+class MeasureName(StrEnum):
+    """Measure that a map keeps of each cell."""
+
+    reach = "reach"
+    manipulability = "manipulability"
+    inverse_condition = "inverse_condition"
+    smallest_singular_value = "smallest_singular_value"
+    limit_margin = "limit_margin"
+    travel = "travel"
+    position_error = "position_error"
+    orientation_error = "orientation_error"
+
+
+class KeepName(StrEnum):
+    """Which measure of a cell a map keeps."""
+
+    best = "best"
+    worst = "worst"
+    mean = "mean"
+
+
+Samples = Annotated[
+    str,
+    Option("--samples", metavar="N", help="Number of configurations, as 10000000 or 1e8."),
+]
+Measured = Annotated[MeasureName, Option("--measure", help="What is kept of each cell.")]
+Kept = Annotated[
+    KeepName, Option("--keep", help="Keep the best, the worst or the mean measure of a cell.")
+]
+SelfCollisionFree = Annotated[
+    bool,
+    Option(
+        "--self-collision",
+        help="Leave configurations out in which spheres around the robot's collision geometry touch.",
+    ),
+]
+SigmaAngle = Annotated[
+    float | None,
+    Option(
+        "--sigma-angle",
+        min=0,
+        help="Of the errors: standard deviation of each axis's tilts and each coordinate's offset, rad.",
+    ),
+]
+SigmaLength = Annotated[
+    float | None,
+    Option(
+        "--sigma-length",
+        min=0,
+        help="Of the errors: standard deviation of each axis's shifts, m.",
+    ),
+]
+Workers = Annotated[
+    int | None,
+    Option("--workers", min=1, help="Number of threads (default: one for each processor)."),
+]
+
+
+def measure_from(
+    name: MeasureName, chain: Chain, angle: float | None, length: float | None
+) -> Measure:
+    """The measure of a name. Raises: InputError where its errors are not given, or not asked for."""
+    is_error = name in (MeasureName.position_error, MeasureName.orientation_error)
+    is_given = angle is not None or length is not None
+    if is_error != is_given:
+        raise InputError(
+            "--sigma-angle, --sigma-length: expected, one or both, with --measure position_error or "
+            "orientation_error, and with no other"
+        )
+    if not is_error:
+        return measure_of(name.value)  # type: ignore[arg-type]  # its names are some of those
+    part: ErrorPart = "position" if name is MeasureName.position_error else "orientation"
+    # a coordinate that slides is off by a length
+    offset = np.where(angle_mask(chain), angle or 0.0, length or 0.0)
+    return PoseUncertainty.by_tolerances(
+        chain, tilt=angle or 0.0, shift=length or 0.0, offset=offset, part=part
+    )
+
+
+def count_from(text: str) -> int:
+    """A whole number, in digits or as 1e8. Raises: InputError."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.5
+    if not number.is_integer():
+        raise InputError(
+            f"--samples: expected a whole number, as 10000000 or 1e8, got {path_text(text)}"
+        )
+    return int(number)
+
+
+def samples_from(chain: Chain, text: str, seed: int) -> Random:
+    """Random configurations. Raises: InputError."""
+    return Random.of(chain, count_from(text), seed)

@@ -1,0 +1,75 @@
+"""`poekin sweep top`: the configurations with the best, or the worst, measures."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from typer import Exit, Option
+
+from ...sweep.maps.top import top
+from ...sweep.masks.self_collision import SelfCollision
+from ..kinematics.arm import Base, File, Json, Seed, Tip
+from ..model import model
+from ..output import Progress, as_json, name, number, say, table
+from .options import (
+    KeepName,
+    Kept,
+    Measured,
+    MeasureName,
+    Samples,
+    SelfCollisionFree,
+    SigmaAngle,
+    SigmaLength,
+    Workers,
+    measure_from,
+    samples_from,
+)
+from .scheduler import Scheduler, executor
+
+Count = Annotated[int, Option("--count", min=1, help="Number of configurations that are listed.")]
+
+
+def command(
+    file: File,
+    measure: Measured = MeasureName.manipulability,
+    count: Count = 10,
+    keep: Kept = KeepName.best,
+    samples: Samples = "1e7",
+    sigma_angle: SigmaAngle = None,
+    sigma_length: SigmaLength = None,
+    self_collision: SelfCollisionFree = False,
+    seed: Seed = 0,
+    tip: Tip = None,
+    base: Base = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    json: Json = False,
+) -> None:
+    """Configurations of FILE with the best measures of all that are drawn at random. Exit code 0 done,
+    2 error.
+    """
+    robot = model(file)
+    chain = robot.chain(base=base, tip=tip)
+    mask = SelfCollision.of_robot(robot, chain) if self_collision else None
+    with executor(scheduler) as runs, Progress("sweep") as progress:
+        found = top(
+            chain,
+            measure_from(measure, chain, sigma_angle, sigma_length),
+            count,
+            keep=keep.value,
+            samples=samples_from(chain, samples, seed),
+            mask=mask,
+            workers=workers,
+            executor=runs,
+            progress=progress,
+        )
+    if json:
+        print(as_json(found.to_dict()))
+        raise Exit(0)
+    say(f"{found.summary()}\n")
+    rows = [
+        [number(value), *(number(x) for x in q)]
+        for value, q in zip(found.values, found.q, strict=True)
+    ]
+    table(["measure", *map(name, chain.q_names)], rows, left=0)
+    raise Exit(0)

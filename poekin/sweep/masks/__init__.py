@@ -1,0 +1,1 @@
+"""Masks of sweeps: samples that count nowhere."""
