@@ -7,7 +7,10 @@ from .compensation import Command
 from .design.choice import Choice, DesignMetrics
 from .design.choose import choose_poses
 from .design.observability import ObservabilityIndices, observability_indices
+from .diagnostics.base_and_tool import FrameEstimate
 from .diagnostics.cross_validation import CrossValidation
+from .diagnostics.effects.diagnosis import ResidualDiagnosis
+from .diagnostics.effects.effect_test import EffectTest
 from .diagnostics.identification import Identification, identify
 from .diagnostics.uncertainty import Workspace
 from .exact.from_fk import from_fk
@@ -19,6 +22,7 @@ from .measurements.points import Distances, Points
 from .measurements.poses import EyeInHand, EyeToHand, Poses
 from .measurements.simulated import Simulated, simulated
 from .model.parameters import Parameter
+from .model.residual_vectors import ResidualVectors
 from .model.residuals import Residuals
 from .result import Outlier
 from .selection.term_gain import TermGain
@@ -33,8 +37,10 @@ __all__ = [
     "CrossValidation",
     "DesignMetrics",
     "Distances",
+    "EffectTest",
     "EyeInHand",
     "EyeToHand",
+    "FrameEstimate",
     "FromFk",
     "Identification",
     "Measurement",
@@ -45,6 +51,8 @@ __all__ = [
     "Points",
     "PoseErrors",
     "Poses",
+    "ResidualDiagnosis",
+    "ResidualVectors",
     "Residuals",
     "Simulated",
     "Term",

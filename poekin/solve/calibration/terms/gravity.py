@@ -24,10 +24,8 @@ def compliance(chain: Chain, owners: Owners, reference: Reference) -> list[Term]
 
     Levers of the nominal arm, which do not depend on what is fitted. Only of joints that carry.
     """
-    home = chain.home
     at_tip = np.zeros(3)
-    from_tip = wrist(chain) - translation_part(home)
-    at_wrist = rotation_part(home).T @ from_tip
+    at_wrist = wrist_in_tip(chain)
     arm = _term(chain, owners, reference, at_wrist, "compliance", "rad/m")
     terms = [arm]
     if "payload" in reference:
@@ -70,6 +68,12 @@ def levers(chain: Chain, q: Array, gravity: Array, point: Array) -> Array:
     J = chain.jacobian(q, frame="hybrid", at=point)
     linear = J[:, 3:]
     return np.einsum("nk,nki->ni", gravity, linear)
+
+
+def wrist_in_tip(chain: Chain) -> Array:
+    """The wrist (3,) in the tip frame."""
+    from_tip = wrist(chain) - translation_part(chain.home)
+    return rotation_part(chain.home).T @ from_tip
 
 
 def wrist(chain: Chain) -> Array:

@@ -19,8 +19,8 @@ def calibrated(kind: Any, **options: Any) -> tuple[Any, Any, ResidualVectors]:
     made = pk.calibration.simulated(ARM, 40, kind=kind, seed=3, **options)
     options = {"on_rank_deficiency": "fix", "folds": 0}
     found = pk.calibrate(ARM, made.q, made.measurements, **options)
-    assert found.vectors is not None
-    return made, found, found.vectors
+    assert found.residuals is not None
+    return made, found, found.residuals
 
 
 @pytest.mark.parametrize("kind", KINDS)
