@@ -14,11 +14,12 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin import html_page
 from poekin.errors import FileError, MissingExtra, ShapeError
 from poekin.groups import se3
 from poekin.solve.calibration import Distances, Points, calibrate
 from poekin.solve.calibration.measurements.simulated import simulated
-from poekin.solve.calibration.report import changes, html_report, plots
+from poekin.solve.calibration.report import changes, html_report, pendant, plots
 from poekin.solve.calibration.result import Outlier
 
 pytest.importorskip("matplotlib")
@@ -396,6 +397,45 @@ def test_what_changed_stands_in_the_row_of_its_joint(found, tables, text):
         ]
         for j in lines
     ]
+
+
+def test_what_the_residuals_show_is_said_and_all_tests_stand_in_a_table(found, tables, text):
+    tests, points = tables["What the residuals show"]
+    diagnosis = found.diagnosis
+    assert tests[0] == ["residuals against", "chance", "explains (mm)"]
+    assert [row[1:] for row in tests[1:]] == [
+        [f"{test.p:.2g}", *milli(test.size)] for test in diagnosis.tests
+    ]
+    e = found.residuals.in_axes("tool").after
+    means = milli(*e.mean(axis=0), np.sqrt(np.mean(np.sum(e**2, axis=1))))
+    assert points[1:] == [["0", "EyeInHand", "1", *means]]
+    said = diagnosis.findings or [diagnosis]
+    for words in said:
+        assert html_page.text(f"{words}.") in text
+
+
+def test_frames_stand_there_as_they_are_typed_in_and_held_ones_say_so(found, tables, text):
+    said = "held, these measurements do not tell it.</p>"
+    assert text.count(said) == 2
+    frames = tables["Base and tool, to be typed in"]
+    assert len(frames) == 2
+    for frame, table in zip(found.tool_and_base[2:], frames, strict=True):
+        columns = [pendant.typed(frame, form) for form in pendant.FORMS.values()]
+        assert table[0] == [
+            "UR (m, rad)",
+            "KUKA (mm, deg)",
+            "Fanuc (mm, deg)",
+            "ROS xyz rpy (m, rad)",
+            "ROS xyz xyzw (m)",
+        ]
+        for k, column in enumerate(columns):
+            assert [row[k] for row in table[1 : 1 + len(column)]] == list(map(str, column))
+
+
+def test_a_calibration_out_of_a_file_says_that_it_has_no_measurements(found, undrawn):
+    text = html_report.html(dataclasses.replace(found, residuals=None, evidence=None))
+    assert "A calibration out of a file has no measurements to be looked at." in text
+    assert "A calibration out of a file does not say which of their numbers are held." in text
 
 
 def test_outliers_and_parameters_stand_in_rows_with_their_errors_and_sources(found, tables, text):
