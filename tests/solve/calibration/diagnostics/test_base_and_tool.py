@@ -45,16 +45,18 @@ SMALL = (
 FAR = (se3.exp([0.0, 0.0, 2.0, 1.0, 2.0, 0.5]), se3.exp([1.0, 1.5, 0.0, 0.1, 0.1, 0.3]))
 
 
+def seen(found, P, Q, p) -> Any:
+    """Estimate of an arm with parameters p, whose nominal one has another base and another tool."""
+    return SimpleNamespace(
+        model=SimpleNamespace(nominal=ARM.rebased(se3.inverse(P)).retooled(se3.inverse(Q))),
+        at=lambda q: found.error_model.poses_and_twists(p, q),
+    )
+
+
 @pytest.mark.parametrize(("P", "Q"), [SMALL, FAR])
 def test_a_base_and_a_tool_that_were_moved_are_found(P, Q, of_poses):
-    other = ARM.rebased(se3.inverse(P)).retooled(se3.inverse(Q))
-    model = of_poses.error_model
     nothing = np.zeros(len(of_poses.values))
-    estimate: Any = SimpleNamespace(
-        model=SimpleNamespace(nominal=other),
-        at=lambda q: model.poses_and_twists(nothing, q),
-    )
-    found = base_and_tool(estimate, POSE)
+    found = base_and_tool(seen(of_poses, P, Q, nothing), POSE)
     # rounding of poses of some m, by a condition below 100
     np.testing.assert_allclose(found.base, P, atol=1e-12)
     np.testing.assert_allclose(found.tool, Q, atol=1e-12)
@@ -62,18 +64,19 @@ def test_a_base_and_a_tool_that_were_moved_are_found(P, Q, of_poses):
     assert found.after < 1e-12
 
 
-def test_motions_are_the_derivatives_of_base_and_tool(of_poses):
-    estimate = of_poses.estimate
-    found = base_and_tool(estimate, POSE)
-    step = 1e-5 * np.random.default_rng(0).normal(size=len(estimate.p))
-    ahead = base_and_tool(estimate._replace(p=estimate.p + step), POSE)
-    behind = base_and_tool(estimate._replace(p=estimate.p - step), POSE)
+@pytest.mark.parametrize(("P", "Q"), [SMALL, FAR])
+def test_motions_are_the_derivatives_of_base_and_tool(P, Q, of_poses):
+    p = of_poses.values
+    found = base_and_tool(seen(of_poses, P, Q, p), POSE)
+    step = 1e-5 * np.random.default_rng(0).normal(size=len(p))
+    ahead = base_and_tool(seen(of_poses, P, Q, p + step), POSE)
+    behind = base_and_tool(seen(of_poses, P, Q, p - step), POSE)
     for frame, part in (("base", slice(0, 6)), ("tool", slice(6, 12))):
         change = se3.log(se3.inverse(getattr(behind, frame)) @ getattr(ahead, frame))
-        # Gauss-Newton's derivative leaves out the residuals' curvature: 5 mm of 1 m
-        np.testing.assert_allclose(
-            found.motions[part] @ (2 * step), change, atol=1e-2 * np.abs(change).max()
-        )
+        # Gauss-Newton's derivative leaves out the residuals' curvature: 5 mm of 1 m, and over
+        # the tenth of a metre that tells a rotation
+        close = 0.05 * np.abs(change).max()
+        np.testing.assert_allclose(found.motions[part] @ (2 * step), change, atol=close)
 
 
 def test_poses_tell_all_of_base_and_tool(of_poses):

@@ -120,8 +120,7 @@ def _strains(
     found = np.zeros((len(T), 6, 6))
     for k, (i, j) in enumerate(_PAIRS):
         found[:, 3 + i, k] += places[:, j]
-        if i != j:
-            found[:, 3 + j, k] += places[:, i]
+        found[:, 3 + j, k] += places[:, i]
     return found
 
 
