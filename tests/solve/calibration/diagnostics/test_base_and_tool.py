@@ -96,11 +96,27 @@ def test_one_point_tells_its_place_on_the_tool_and_no_rotation(of_one_point):
     np.testing.assert_allclose([n.value for n in numbers[:3]], [50.0, 30.0, 100.0], atol=5.0)
 
 
+@pytest.mark.parametrize(
+    ("kind", "options", "held"),
+    [
+        ("points", {"points": np.eye(3) / 10}, False),
+        ("points", {"points": np.eye(3)[:2] / 10}, True),
+        ("distances", {}, True),
+    ],
+)
+def test_the_tool_is_turned_as_three_points_of_it_tell(kind, options, held):
+    found = calibrated(kind, **options)
+    turned = pendant.typed(found.tool_and_base[1], "ur")[3:]
+    assert any(number.held for number in turned) == held
+
+
 def test_frames_of_a_camera_hold_base_and_tool_and_stand_beside_them(of_board):
     frames = {frame.name: frame for frame in of_board.tool_and_base}
     assert list(frames) == ["base", "tool", "T_base_board", "T_tip_camera"]
     assert pendant.is_held(frames["base"])
     assert pendant.is_held(frames["tool"])
+    for name in ("base", "tool"):
+        assert np.linalg.matrix_rank(frames[name].held, tol=0.1) == 6
     board = frames["T_base_board"]
     np.testing.assert_array_equal(board.T, of_board.frames["T_base_board"])
     assert not any(number.held for number in pendant.typed(board, "fanuc"))
