@@ -51,6 +51,7 @@ SLOW = (
         "solve/calibration/fit/test_initial_guess.py",
         "solve/calibration/report/test_html_report.py",
         "solve/calibration/causes/test_wrong_data.py",
+        "solve/calibration/diagnostics/effects/test_false_alarms.py",
         "solve/calibration/fit/test_coverage.py",
         "solve/calibration/fit/test_cubes.py",
         "solve/calibration/design/test_true_error.py",

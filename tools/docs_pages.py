@@ -172,11 +172,11 @@ def calibration() -> Made:
     made = pk.calibration.simulated(chain, 60, kind="poses", noise=(1e-4, 1e-4), seed=1)
     found = pk.calibrate(chain, made.q, made.measurements, folds=0)
     figure = chain.plot(PANDA)
-    if found.vectors is not None:  # which a calibration out of a file is without
-        places = found.vectors.places
+    if found.residuals is not None:  # which a calibration out of a file is without
+        places = found.residuals.places
         fit(figure, [*places, np.zeros(3)])
-        arrows(figure, places, ENLARGED * found.vectors.before, MARKED)
-        arrows(figure, places, ENLARGED * found.vectors.after, OTHER)
+        arrows(figure, places, ENLARGED * found.residuals.before, MARKED)
+        arrows(figure, places, ENLARGED * found.residuals.after, OTHER)
     return pk.view(found), figure
 
 

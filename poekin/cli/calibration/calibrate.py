@@ -28,7 +28,7 @@ from ..array_files import check_apart, check_place
 from ..formats import draw as pages
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
-from ..output import Progress, as_json, complain, name, say, table
+from ..output import Progress, as_json, complain, name, say
 from . import exact as exact_pairs
 from . import measured
 from .measured import Measured, MeasurementOptions
@@ -363,10 +363,6 @@ def _show(found: Calibration, robot: Robot, given: Measured, outputs: Outputs) -
     say(f"{name(robot.name)}, {name(found.chain.base)} → {name(found.chain.tip)}")
     say(changes.sentence(found))
     say(found.summary())
-    moved = changes.joints(found)
-    if moved:
-        say()
-        table(changes.HEADS, [changes.row(j) for j in moved])
     if found.outliers:
         say(f"\nOutliers: {_locations([given.sources[o.row] for o in found.outliers])}")
     say_written(outputs.written, robot)

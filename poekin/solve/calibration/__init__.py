@@ -12,7 +12,10 @@ from .design.choice import Choice, DesignMetrics
 from .design.choose import choose_poses
 from .design.observability import ObservabilityIndices, observability_indices
 from .design.visibility import ViewCone, WorkspaceBox
+from .diagnostics.base_and_tool import FrameEstimate
 from .diagnostics.cross_validation import CrossValidation
+from .diagnostics.effects.diagnosis import ResidualDiagnosis
+from .diagnostics.effects.effect_test import EffectTest
 from .diagnostics.identification import Identification, identify
 from .diagnostics.uncertainty import Workspace
 from .exact.from_fk import from_fk
@@ -26,6 +29,7 @@ from .measurements.separations import Separations
 from .measurements.simulated import Simulated, simulated
 from .model.configurations import average_repeats
 from .model.parameters import Parameter
+from .model.residual_vectors import ResidualVectors
 from .model.residuals import Residuals
 from .result import Outlier
 from .selection.term_gain import TermGain
@@ -41,8 +45,10 @@ __all__ = [
     "CrossValidation",
     "DesignMetrics",
     "Distances",
+    "EffectTest",
     "EyeInHand",
     "EyeToHand",
+    "FrameEstimate",
     "FromCircles",
     "FromFk",
     "Identification",
@@ -55,6 +61,8 @@ __all__ = [
     "Points",
     "PoseErrors",
     "Poses",
+    "ResidualDiagnosis",
+    "ResidualVectors",
     "Residuals",
     "Separations",
     "Simulated",

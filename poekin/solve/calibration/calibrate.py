@@ -18,6 +18,7 @@ from .calibration import Calibration
 from .causes.most_likely import build_problem
 from .diagnostics import cross_validation, explanation, misfit, verdict
 from .diagnostics.cross_validation import CrossValidation
+from .diagnostics.effects.diagnosis import FitEvidence
 from .diagnostics.identification import OnRankDeficiency
 from .fit.covariance import covariance_of
 from .fit.fitting import Fit
@@ -203,7 +204,13 @@ def calibrate(  # noqa: PLR0913 - options by keyword
         )
     doubts = misfit.contradicted(problem, fit)
     found = _result(problem, solved, held_out, doubts)
-    found = replace(found, vectors=problem.residual_vectors(solved.points, fit.p), terms=terms)
+    vectors = problem.residual_vectors(solved.points, fit.p, given.previous)
+    evidence = FitEvidence(problem, fit, loss, given)
+    outliers = found.outliers
+    if outliers and evidence.search.findings:
+        gross = evidence.search.gross()
+        outliers = tuple(o for o in outliers if gross[o.set][o.index])
+    found = replace(found, residuals=vectors, terms=terms, evidence=evidence, outliers=outliers)
     reasons = verdict.judge(found, problem, doubts, prior is not None, to_hold_out)
     found = replace(found, verdict=reasons)
     for words in found.warnings:

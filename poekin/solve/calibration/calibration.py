@@ -53,7 +53,7 @@ class Calibration(CalibrationData):
     cross_validation : CrossValidation or None
         Residuals on held-out data; None where none was.
     outliers : tuple of Outlier
-        Measurements that are grossly off.
+        Measurements that are grossly off, beside the effects that the diagnosis found.
     noise_std : tuple of NoiseEstimate or None
         Standard deviations estimated for each set without covariances, None for the others.
     loss : {"linear", "huber", "cauchy", "tukey"}
@@ -69,9 +69,14 @@ class Calibration(CalibrationData):
     verdict : tuple of str
         Reasons not to use the calibrated arm, none where it is sound; the first names the cause
         that explains the measurements best, with the error that it would leave.
-    vectors : ResidualVectors or None
-        Readings, measured points and their residuals in the base frame; None where it was loaded
-        from a file, which does not hold the measurements.
+    residuals : ResidualVectors or None
+        Readings, measured points and their residuals in the base frame, `residuals.in_axes("tool")`
+        those in axes of the tool; None where it was loaded from a file, which does not hold the
+        measurements.
+    diagnosis : ResidualDiagnosis or None
+        Effects that the residuals show; None as `residuals`.
+    evidence : FitEvidence or None
+        Measurements, fit and conditions that the diagnosis is made of; None as `residuals`.
     terms : tuple of TermGain
         Gain on held-out readings of each non-geometric term that is in the fit, and with
         `parameters="auto"` of those that are not.

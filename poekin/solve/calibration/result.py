@@ -15,7 +15,9 @@ from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...results import Result
 from .diagnostics import uncertainty
+from .diagnostics.base_and_tool import FrameEstimate, frame_estimates
 from .diagnostics.cross_validation import CrossValidation
+from .diagnostics.effects.diagnosis import FitEvidence, ResidualDiagnosis
 from .diagnostics.identification import Identification
 from .diagnostics.uncertainty import CONFIGURATIONS, Workspace
 from .fit.losses import LossName
@@ -71,8 +73,28 @@ class CalibrationData(Result):
     warnings: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
     verdict: tuple[str, ...] = ()
-    vectors: ResidualVectors | None = field(default=None, repr=False)
+    residuals: ResidualVectors | None = field(default=None, repr=False)
     terms: tuple[TermGain, ...] = ()
+    evidence: FitEvidence | None = field(default=None, repr=False)
+
+    @property
+    def diagnosis(self) -> ResidualDiagnosis | None:
+        """Effects that the residuals show; None of a calibration out of a file, which has no
+        measurements.
+        """
+        if self.evidence is None:
+            return None
+        return self.evidence.diagnosis
+
+    @property
+    def tool_and_base(self) -> tuple[FrameEstimate, ...]:
+        """Frames that a controller with the nominal arm is told: its base in the frame that was
+        measured in, the tool in its tip frame, with which it is nearest to the calibrated arm; and
+        the unknown frames. None of a calibration out of a file.
+        """
+        if self.evidence is None:
+            return ()
+        return tuple(frame_estimates(self.estimate, self.evidence.points))
 
     @property
     def deviations(self) -> Array:
@@ -117,7 +139,7 @@ class CalibrationData(Result):
         """
         q = coordinates(q, self.nominal.q_names)
         rows = q.reshape(-1, self.nominal.dof)
-        C = uncertainty.pose_covariance(self._estimate, rows)
+        C = uncertainty.pose_covariance(self.estimate, rows)
         return C.reshape(*q.shape[:-1], 6, 6)
 
     def relative_covariance(self, q_a: Any, q_b: Any) -> Array:
@@ -156,7 +178,7 @@ class CalibrationData(Result):
         True
         """
         a, b, shape = self._pairs(q_a, q_b)
-        C = uncertainty.relative_covariance(self._estimate, a, b)
+        C = uncertainty.relative_covariance(self.estimate, a, b)
         return C.reshape(*shape, 6, 6)
 
     def distance_deviation(self, q_a: Any, q_b: Any, point: Any = (0.0, 0.0, 0.0)) -> Array:
@@ -197,7 +219,7 @@ class CalibrationData(Result):
         place = parse_points(point)
         if len(place) != 1:
             raise ShapeError(f"point: expected one point (3,), got {len(place)}")
-        variances = uncertainty.distance_variance(self._estimate, a, b, place[0])
+        variances = uncertainty.distance_variance(self.estimate, a, b, place[0])
         return np.sqrt(np.maximum(variances, 0.0)).reshape(shape)
 
     def measurement_covariance(self, q: Any, measurement: Measurement, of_set: int = 0) -> Array:
@@ -238,7 +260,7 @@ class CalibrationData(Result):
         """
         q = coordinates(q, self.nominal.q_names)
         rows = q.reshape(-1, self.nominal.dof)
-        C = uncertainty.measurement_covariance(self._estimate, rows, measurement, of_set)
+        C = uncertainty.measurement_covariance(self.estimate, rows, measurement, of_set)
         return C.reshape(*q.shape[:-1], *C.shape[1:])
 
     def workspace(self, count: int = CONFIGURATIONS, seed: int = 0) -> Workspace:
@@ -273,10 +295,11 @@ class CalibrationData(Result):
         """
         whole(count, "count", 1)
         whole(seed, "seed", 0)
-        return uncertainty.workspace(self._estimate, count, seed)
+        return uncertainty.workspace(self.estimate, count, seed)
 
     @property
-    def _estimate(self) -> uncertainty.Estimate:
+    def estimate(self) -> uncertainty.Estimate:
+        """Error model, parameters, covariance and frames."""
         return uncertainty.Estimate(
             self.error_model, self.parameters, self.values, self.covariance, self.frames
         )

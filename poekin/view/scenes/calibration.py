@@ -43,7 +43,7 @@ def calibration_scene(found: Calibration) -> Scene:
         enlarged; at measured points the residuals of both, enlarged by a factor that the page
         says; a table of the corrections. Of a calibration out of a file without residuals.
     """
-    vectors = found.vectors
+    vectors = found.residuals
     scene = arm_scene(found.nominal, q=_widest(found))
     side_by_side = compare(found.nominal, found.chain, strict=True)
     second = exaggerated(side_by_side)
@@ -75,9 +75,9 @@ def calibration_scene(found: Calibration) -> Scene:
 
 def _widest(found: Calibration) -> Array | None:
     """The measured configuration, of some, at which the arm reaches farthest; None where there is none."""
-    if found.vectors is None or not len(found.vectors.q):
+    if found.residuals is None or not len(found.residuals.q):
         return None
-    q = found.vectors.q
+    q = found.residuals.q
     some = q[evenly(len(q), MOST)]
     arm = chain_geometry(found.nominal)
     sizes = [arm_size(arm, row) for row in some]
@@ -85,8 +85,8 @@ def _widest(found: Calibration) -> Array | None:
 
 
 def correction_table(found: Calibration) -> PageTable:
-    """Tilt and shift of each axis that could move, with how well they are known."""
-    rows = tuple(changes.row(joint) for joint in changes.joints(found))
+    """Distance of each axis from the nominal one, base and tool aligned."""
+    rows = tuple(changes.row(joint) for joint in changes.aligned_joints(found))
     return PageTable("Corrections of the axes", changes.HEADS, rows)
 
 

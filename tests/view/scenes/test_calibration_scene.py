@@ -23,7 +23,7 @@ def found():
 def test_both_arms_have_the_same_coordinates_and_the_calibrated_one_is_that_of_the_result(found):
     scene = calibration_scene(found)
     first, second = scene.arms
-    assert scene.q.tolist() in found.vectors.q.tolist()
+    assert scene.q.tolist() in found.residuals.q.tolist()
     np.testing.assert_array_equal(second.base, np.eye(4))
     np.testing.assert_array_equal(second.factors[:-1], np.eye(6))
     assert second.shift[-1] == scene.exaggerated > 1
@@ -32,7 +32,7 @@ def test_both_arms_have_the_same_coordinates_and_the_calibrated_one_is_that_of_t
 
 def test_arrows_go_from_the_measured_points_by_the_residuals_enlarged_as_the_words_say(found):
     scene = calibration_scene(found)
-    v = found.vectors
+    v = found.residuals
     (cloud,) = [n for n in scene.nodes if isinstance(n, Cloud)]
     np.testing.assert_allclose(cloud.points, v.places - v.after, atol=1e-15)
     (words,) = [w for w in scene.words if w.startswith("Residuals are drawn")]
@@ -47,10 +47,10 @@ def test_arrows_go_from_the_measured_points_by_the_residuals_enlarged_as_the_wor
 
 def test_the_page_opens_at_the_measured_configuration_at_which_the_arm_is_largest(found):
     arm = chain_geometry(ARM)
-    sizes = [arm_size(arm, q) for q in found.vectors.q]
+    sizes = [arm_size(arm, q) for q in found.residuals.q]
     scene = calibration_scene(found)
     assert scene.size == max(sizes)
-    np.testing.assert_array_equal(scene.q, found.vectors.q[np.argmax(sizes)])
+    np.testing.assert_array_equal(scene.q, found.residuals.q[np.argmax(sizes)])
 
 
 def test_corrections_are_a_table_with_a_row_for_each_axis(found):

@@ -10,9 +10,9 @@ import numpy as np
 from ....groups.arrays import Array
 from ....groups.vectors import norm, norms, translation_part
 from ..causes.most_likely import most_likely
+from ..model.parameters import SHIFT, TILT
 from ..model.problem import Problem
 from ..model.residuals import Residuals, median, rms
-from ..report import changes
 from ..result import CalibrationData
 from .explanation import set_name
 from .misfit import Contradiction
@@ -135,7 +135,7 @@ def _moved(found: CalibrationData) -> Iterator[str]:
     shifts = tilts.copy()
     own = found.error_model.parameters
     for parameter, value in zip(own, found.values.tolist(), strict=False):
-        for word, sizes in ((changes.TILT, tilts), (changes.SHIFT, shifts)):
+        for word, sizes in ((TILT, tilts), (SHIFT, shifts)):
             if parameter.what.startswith(word):
                 sizes[parameter.owner] = math.hypot(sizes[parameter.owner], value)
     for name, link in links.items():

@@ -28,7 +28,7 @@ def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
 
     Where a configuration carries more than three numbers, and their covariance is not given, their
     errors may depend on each other, as those of three reflectors on an arm that bends: (J^T J)^-1
-    M (J^T J)^-1 then, with `_meat`'s M. Source: Huber, Robust Statistics, 1981, section 7.6; Liang
+    M (J^T J)^-1 then, with `jackknife_meat`'s M. Source: Huber, Robust Statistics, 1981, section 7.6; Liang
     and Zeger 1986 (Biometrika 73) for clusters.
     """
     B = problem.scale[:, None] * fit.free
@@ -39,10 +39,10 @@ def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
     R = qr_r(A) if fit.triangle is None else fit.triangle
     inverse = _inverse(R)
     half = B @ inverse
-    clusters = _clusters(problem)
+    clusters = clusters_of(problem)
     if clusters is not None:
         scores = _scores(problem, fit, options)
-        M = _meat(A @ inverse, scores, clusters)
+        M = jackknife_meat(A @ inverse, scores, clusters)
         half = half @ _root(M)
     covariance = half @ half.T  # a product with its own transpose is symmetric to the last bit
     if options.loss == "linear":
@@ -65,7 +65,7 @@ def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
     return covariance * psi_squared / mean_slope**2
 
 
-def _clusters(problem: Problem) -> NDArray[np.intp] | None:
+def clusters_of(problem: Problem) -> NDArray[np.intp] | None:
     """Configuration of each number that was measured (M,); None where no errors depend on each
     other, or all their covariances are given: these are believed.
     """
@@ -94,7 +94,7 @@ def _scores(problem: Problem, fit: Fit, options: FitOptions) -> Array:
     return np.concatenate(found)
 
 
-def _meat(Q: Array, scores: Array, clusters: NDArray[np.intp]) -> Array:
+def jackknife_meat(Q: Array, scores: Array, clusters: NDArray[np.intp]) -> Array:
     """M = sum over clusters g of Q_g^T a_g a_g^T Q_g, with a_g = (I - Q_g Q_g^T)^-1 e_g: the errors
     e_g (M,) as a fit without the cluster would leave them.
 

@@ -267,6 +267,14 @@ class ErrorModel:
             parts.append(derivatives.home @ J_r)
         return np.concatenate([*parts, *readings], axis=2)
 
+    def reading_twists(self, p: Array, q: Array, basis: Array) -> Array:
+        """Space twists (N, 6, m) per unit of each coordinate."""
+        x = self.values(p, q, basis)
+        J = self.joints(p).jacobian(x, frame="space")
+        if self._coupling is not None:
+            J = J @ self._coupling
+        return J
+
     def _screw_twists(self, eta: Array, derivatives: Array) -> Array:
         """Space twists (N, 6, k) of the tilts and shifts, from those of the screws (N, 6, n, 6)."""
         N = len(derivatives)

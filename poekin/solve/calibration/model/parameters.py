@@ -21,6 +21,9 @@ Mask = NDArray[np.bool_]
 KINDS: tuple[ParameterKind, ...] = get_args(ParameterKind)
 ROTATIONS = ("turn about x", "turn about y", "turn about z")
 TRANSLATIONS = ("shift along x", "shift along y", "shift along z")
+# of an axis: a home pose is shifted "along x"
+TILT = "tilt about ("
+SHIFT = "shift along ("
 # of the four directions in which an axis moves, tilt and shift: columns of its z-aligned frame
 _SHIFT = slice(2, 4)
 
@@ -115,9 +118,9 @@ def _axis_names(
     for i, k in np.argwhere(free.screws).tolist():
         direction = ", ".join(f"{row[k % 2]:.3g}" for row in across[i])
         if k < _SHIFT.start:
-            found.append(Parameter(joint_names[i], f"tilt about ({direction})", "rad"))
+            found.append(Parameter(joint_names[i], f"{TILT}{direction})", "rad"))
         else:
-            found.append(Parameter(joint_names[i], f"shift along ({direction})", "m"))
+            found.append(Parameter(joint_names[i], f"{SHIFT}{direction})", "m"))
     return found
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ....groups import se3
 from ....groups.arrays import Array
+from ....groups.vectors import applied, rotation_part, translation_part
 from ....model.checks import read_only
 from ..measurements.measurement import Measurement, Rows, rows_of
 from ..terms.conditions import Conditions, in_order
@@ -147,6 +148,10 @@ class Problem:
             values[name] = _moved(frame, eta)
         return values
 
+    def frames_of_set(self, k: int, p: Array) -> list[Array]:
+        """The unknown frames of set k at p."""
+        return self._frames_of_sets(p)[k]
+
     def _frames_of_sets(self, p: Array) -> list[list[Array]]:
         """The unknown frames of each set at p."""
         values = self.frame_values(p)
@@ -158,10 +163,17 @@ class Problem:
         key = p.tobytes()
         return self._last_residuals(key, lambda: residuals(self.sets, self.rows, errors))
 
-    def residual_vectors(self, old: MeasuredPoints, p: Array) -> ResidualVectors:
-        """Residuals of all measured points before and after a fit, as vectors in the base frame."""
+    def residual_vectors(self, old: MeasuredPoints, p: Array, previous: Array) -> ResidualVectors:
+        """Residuals of all measured points before and after a fit, as vectors in the base frame;
+        previous (N, m): the readings before.
+        """
         new = self.points(p)
-        return ResidualVectors(self.q, new.rows, new.places, old.errors, new.errors)
+        T = self.poses(p)
+        was = self.model.poses(self._of_model(p), previous) @ se3.inverse(T)
+        came = was[new.rows]
+        moves = new.places - (applied(rotation_part(came), new.places) + translation_part(came))
+        R = rotation_part(T)[new.rows]
+        return ResidualVectors(self.q, new.rows, new.places, old.errors, new.errors, R, moves)
 
     def points(self, p: Array) -> MeasuredPoints:
         """Places and errors of all measured points."""
@@ -179,10 +191,27 @@ class Problem:
 
     def _at(self, p: Array) -> Iterator[_PosedSet]:
         """Each set with the poses of its readings and its unknown frames."""
-        T = self.model.poses(self._of_model(p), self.q, self.basis)
+        T = self.poses(p)
         for k, frames in enumerate(self._frames_of_sets(p)):
             rows = self.rows[k]
             yield _PosedSet(self.sets[k], rows, T[rows], frames)
+
+    def poses(self, p: Array) -> Array:
+        """T_base_tip (N, 4, 4) at the readings."""
+        return self.model.poses(self._of_model(p), self.q, self.basis)
+
+    def reading_twists(self, p: Array) -> Array:
+        """Space twists (N, 6, m) of the tip per unit of each coordinate."""
+        return self.model.reading_twists(self._of_model(p), self.q, self.basis)
+
+    def along_twists(self, p: Array, D: Array) -> list[Array]:
+        """Derivatives (N, d, k) of the errors of each set along space twists (N, 6, k) of the tip."""
+        found = []
+        pairs = zip(self._at(p), self.errors(p), strict=True)
+        for (s, rows, T, frames), errors in pairs:
+            of_arm, _ = s.jacobian(T, frames, errors, D[rows])
+            found.append(of_arm)
+        return found
 
     def _of_model(self, p: Array) -> Array:
         """The error model's part of the parameters."""

@@ -1,25 +1,19 @@
-"""Changes by a calibration: the errors, and each joint's axis, with how well that is known."""
+"""Changes by a calibration: the errors, and each joint's axis, whatever base and tool are."""
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
 
-import numpy as np
-
-from ....groups.arrays import Array
-from ....groups.vectors import norm
+from ....analysis.compare.compare import compare
+from ....analysis.compare.comparison import JointComparison
+from ..diagnostics.base_and_tool import base_and_tool, pose_points
 from ..model.residuals import Residuals
 from ..result import CalibrationData
 
 TWO_SIGMA = 1.959963984540054
 """Of a normal number, 95 % lie within so many standard deviations."""
-# of an axis: a home pose is shifted "along x"
-TILT = "tilt about ("
-SHIFT = "shift along ("
-
-
-HEADS = ("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %")
+HEADS = ("joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero")
 
 
 class NamedResiduals(NamedTuple):
@@ -70,69 +64,39 @@ def milli(value: float) -> str:
     return f"{1e3 * value + 0.0:.3g}"
 
 
-class AxisChange(NamedTuple):
-    """The tilts (rad) or shifts (m) of one joint's axis: values (k,), k = 0 or 2, with covariance
-    (k, k).
+def aligned_joints(found: CalibrationData) -> tuple[JointComparison, ...]:
+    """The joints of the nominal arm, base and tool aligned to the calibrated one, beside its own:
+    what no choice of frames changes.
     """
-
-    values: Array
-    covariance: Array
-
-    @property
-    def size(self) -> float:
-        """Their length; NaN where none was a parameter."""
-        if len(self.values):
-            return norm(self.values)
-        return math.nan
-
-    @property
-    def margins(self) -> Array:
-        """Half the 95 % interval of each (k,)."""
-        return TWO_SIGMA * np.sqrt(np.diag(self.covariance))
-
-    @property
-    def margin(self) -> float:
-        """Half the 95 % interval of the length; of a length of 0, that of the worst direction."""
-        if not len(self.values):
-            return math.nan
-        if self.size:
-            u = self.values / self.size
-            variance = u @ self.covariance @ u
-        else:
-            variance = np.linalg.eigvalsh(self.covariance)[-1]
-        return TWO_SIGMA * float(np.sqrt(max(variance, 0.0)))
+    base, tool, *_ = base_and_tool(found.estimate, pose_points(found.nominal.reach))
+    aligned = found.nominal.rebased(base).retooled(tool)
+    return compare(aligned, found.chain).joints
 
 
-class MovableJoint(NamedTuple):
-    """One joint whose axis could move."""
-
-    name: str
-    tilt: AxisChange
-    shift: AxisChange
-
-
-def joints(found: CalibrationData) -> list[MovableJoint]:
-    """The joints whose axes could move, in the order of the chain."""
-    own = found.error_model.parameters
-    tilted = dict.fromkeys(p.owner for p in own if p.what.startswith(TILT))
-    return [
-        MovableJoint(
-            name,
-            _change(found, name, TILT),
-            _change(found, name, SHIFT),
-        )
-        for name in tilted
-    ]
+def row(joint: JointComparison) -> tuple[str, ...]:
+    """Name, and how far the calibrated axis and its zero are from the nominal ones."""
+    zero = f"{_degrees(joint.zero_offset)} °"
+    if joint.unit == "m":
+        zero = f"{_millimetres(joint.zero_offset)} mm"
+    return (
+        joint.name_a,
+        _degrees(joint.angle),
+        _millimetres(joint.normal),
+        _millimetres(joint.shift),
+        zero,
+    )
 
 
-def _change(found: CalibrationData, name: str, word: str) -> AxisChange:
-    own = found.error_model.parameters
-    mine = [k for k, p in enumerate(own) if p.owner == name and p.what.startswith(word)]
-    return AxisChange(found.values[mine], found.covariance[np.ix_(mine, mine)])
+def _millimetres(length: float | None) -> str:
+    if length is None:
+        return ""
+    return _seen(1e3 * length)
 
 
-def row(joint: MovableJoint) -> tuple[str, ...]:
-    """Name, tilt and its interval (mrad), shift and its interval (mm)."""
-    moved = (joint.tilt, joint.shift)
-    figures = (x for change in moved for x in (change.size, change.margin))
-    return joint.name, *map(milli, figures)
+def _degrees(angle: float) -> str:
+    return _seen(math.degrees(angle))
+
+
+def _seen(value: float) -> str:
+    """A figure in mm or degrees; what is far below them is rounding."""
+    return f"{0.0 if abs(value) < 1e-9 else value:.3g}"

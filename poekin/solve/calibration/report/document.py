@@ -27,6 +27,8 @@ def document(found: CalibrationData) -> dict[str, object]:
         "outliers": found.outliers,
         "terms": found.terms,
         "workspace": _workspace(found),
+        "diagnosis": found.diagnosis,
+        "tool_and_base": found.tool_and_base,
         "verdict": found.verdict,
         "warnings": found.warnings,
         "remarks": found.remarks,

@@ -4,23 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import zip_longest
 
 import numpy as np
 
 from .... import html_page
-from ....analysis.compare.compare import compare
 from ....analysis.compare.comparison import JointComparison
 from ....errors import ShapeError, escape_unprintable
 from ....groups import so3
 from ....groups.arrays import Array
-from ....groups.vectors import rotation_part, translation_part
+from ....groups.vectors import norms, rotation_part, translation_part
 from ....html_page import caption, figure, paragraph, text
+from ..diagnostics.base_and_tool import FrameEstimate
+from ..diagnostics.effects.diagnosis import FitEvidence
+from ..model.parameters import SHIFT, TILT
+from ..model.residual_vectors import ResidualVectors
 from ..model.residuals import Residuals, largest, median, rms
 from ..result import CalibrationData
-from . import changes, plots
+from . import changes, pendant, plots, residual_plots
 from .changes import milli
 
 MOST_ROWS = 60
+_STYLE = "td.typed { white-space: nowrap; }\n"
 _HEADS = ("", "position rms (mm)", "median", "largest", "rotation rms (mrad)", "median", "largest")
 
 
@@ -41,17 +46,19 @@ def html(
         title = f"Calibration: {found.chain.base} to {found.chain.tip}"
     sections = {
         "Residuals": _residuals(found),
-        "What was measured, and what it can tell": _measured(found),
         "What changed": _changed(found),
+        "Base and tool, to be typed in": _frames(found),
+        "What the residuals show": _diagnosis(found),
+        "What was measured, and what it can tell": _measured(found),
         "How well the pose is known": _uncertainty(found),
         "Outliers": _outliers(found, sources),
         "The search": _search(found),
-        "All parameters": _parameters(found),
+        "Other parameters": _parameters(found),
     }
     parts = [paragraph(changes.sentence(found), "lead")]
     for head, section in sections.items():
         parts += ["<section>", f"<h2>{text(head)}</h2>", *section, "</section>"]
-    return html_page.page(title, parts)
+    return html_page.page(title, parts, _STYLE)
 
 
 def _residuals(found: CalibrationData) -> Iterator[str]:
@@ -136,40 +143,12 @@ def _frame_row(name: str, frame: Array) -> tuple[str, ...]:
 
 
 def _changed(found: CalibrationData) -> Iterator[str]:
-    moved = changes.joints(found)
-    if moved:
-        yield paragraph(
-            "How far each joint's axis was tilted and shifted across itself; bars are 95 % "
-            "intervals."
-        )
-        yield figure(
-            plots.joints(moved),
-            "Which two directions across an axis these are stands in the table of all parameters.",
-        )
-        yield _table(changes.HEADS, [changes.row(j) for j in moved])
-    compared = compare(found.nominal, found.chain)
-    yield caption("Nominal and calibrated arm, aligned and compared (the largest first)")
-    lines = sorted(compared.joints, key=_difference, reverse=True)
-    heads = ("joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero")
-    yield _table(heads, [_compared_row(j) for j in lines[:MOST_ROWS]])
-    if (e := compared.before) is not None:
-        yield paragraph(
-            f"As they stand, the two differ by up to {1e3 * e.worst_position:.3g} mm and "
-            f"{math.degrees(e.worst_rotation):.3g}° over {compared.samples} random configurations, "
-            f"on average by {1e3 * e.mean_position:.3g} mm and {math.degrees(e.mean_rotation):.3g}°."
-        )
-
-
-def _compared_row(j: JointComparison) -> tuple[str, ...]:
-    zero = f"{_degrees(j.zero_offset)} °"
-    if j.unit == "m":
-        zero = f"{_millimetres(j.zero_offset)} mm"
-    return (
-        j.name_a,
-        _degrees(j.angle),
-        _millimetres(j.normal),
-        _millimetres(j.shift),
-        zero,
+    yield caption("Nominal and calibrated arm, base and tool aligned (the largest first)")
+    lines = sorted(changes.aligned_joints(found), key=_difference, reverse=True)
+    yield _table(changes.HEADS, [changes.row(j) for j in lines[:MOST_ROWS]])
+    yield paragraph(
+        "What depends on where base and tool were put, such as how far an axis is tilted in the base,"
+        " is not shown: other choices of these frames have other numbers of the same arm."
     )
 
 
@@ -180,6 +159,71 @@ def _difference(j: JointComparison) -> float:
         1e3 * (j.normal or 0.0),
         math.degrees(j.angle),
     )
+
+
+def _diagnosis(found: CalibrationData) -> Iterator[str]:
+    diagnosis = found.diagnosis
+    if diagnosis is None or found.residuals is None or found.evidence is None:
+        yield paragraph("A calibration out of a file has no measurements to be looked at.")
+        return
+    yield from (paragraph(f"{test}.") for test in diagnosis.findings)
+    if not diagnosis.findings:
+        yield paragraph(f"{diagnosis}.")
+    heads = ("residuals against", "chance", "explains (mm)")
+    rows = [(test.what, f"{test.p:.2g}", milli(test.size)) for test in diagnosis.tests]
+    table = _table(heads, rows)
+    yield html_page.details(f"{len(rows)} tests, chances corrected for their number", table)
+    for picture in residual_plots.pictures(found.residuals, found.evidence):
+        if picture.panels:
+            yield figure(
+                residual_plots.drawn(picture), f"{picture.words} Bars: means ± 2 standard errors."
+            )
+    yield from _by_point(found.residuals, found.evidence)
+
+
+def _by_point(residuals: ResidualVectors, evidence: FitEvidence) -> Iterator[str]:
+    """Means of the residuals of each point and set, in axes of the tool."""
+    e = residuals.in_axes("tool").after
+    rows = []
+    begin = 0
+    for k, s in enumerate(evidence.problem.sets):
+        count = max(1, (s.width - s.angular) // 3)
+        end = begin + len(s) * count
+        for j in range(count):
+            mine = e[begin + j : end : count]
+            numbers = [milli(x) for x in (*mine.mean(axis=0), rms(norms(mine)))]
+            rows.append((str(k), s.what, str(j + 1), *numbers))
+        begin = end
+    yield caption("Means in axes of the tool, by set of measurements and point")
+    heads = ("set", "kind", "point", "x (mm)", "y (mm)", "z (mm)", "rms (mm)")
+    yield _table(heads, rows, words=(1,))
+
+
+def _frames(found: CalibrationData) -> Iterator[str]:
+    frames = found.tool_and_base
+    if not frames:
+        yield paragraph("A calibration out of a file does not say which of their numbers are held.")
+        return
+    yield paragraph(
+        "Base and tool with which a controller that has the nominal arm is nearest to the calibrated"
+        " one, with 95 % intervals. What is held stayed as it was, as the measurements do not tell it."
+    )
+    for frame in frames:
+        head = pendant.title(found, frame)
+        if pendant.is_held(frame):
+            yield paragraph(f"{head}: held, these measurements do not tell it.")
+            continue
+        yield caption(head)
+        yield _typed(frame)
+
+
+def _typed(frame: FrameEstimate) -> str:
+    """Numbers of a frame, a column for each form."""
+    heads = [f"{name} ({pendant.units(form)})" for name, form in pendant.FORMS.items()]
+    columns = [map(str, pendant.typed(frame, form)) for form in pendant.FORMS.values()]
+    kinds = ["typed"] * len(heads)
+    lines = [html_page.row(cells, kinds) for cells in zip_longest(*columns, fillvalue="")]
+    return html_page.table(heads, kinds, lines)
 
 
 def _uncertainty(found: CalibrationData) -> Iterator[str]:
@@ -244,27 +288,14 @@ def _search(found: CalibrationData) -> Iterator[str]:
 
 
 def _parameters(found: CalibrationData) -> Iterator[str]:
+    """All but tilts and shifts of axes, which depend on where base and tool are put."""
     heads = ("of", "what", "value", "standard deviation", "unit")
     rows = []
     for p, value, s in zip(found.parameters, found.values, found.deviations, strict=True):
-        rows.append((p.owner, p.what, f"{value:.6g}", f"{s:.2g}", p.unit))
+        if not p.what.startswith((TILT, SHIFT)):
+            rows.append((p.owner, p.what, f"{value:.6g}", f"{s:.2g}", p.unit))
     table = _table(heads, rows, words=(0, 1, 4))
     yield html_page.details(f"{len(rows)} parameters", table)
-
-
-def _millimetres(length: float | None) -> str:
-    if length is None:
-        return ""
-    return _seen(1e3 * length)
-
-
-def _degrees(angle: float) -> str:
-    return _seen(math.degrees(angle))
-
-
-def _seen(value: float) -> str:
-    """A figure in mm or degrees; what is far below them is rounding."""
-    return f"{0.0 if abs(value) < 1e-9 else value:.3g}"
 
 
 def _table(

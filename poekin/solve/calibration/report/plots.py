@@ -12,7 +12,7 @@ from .... import svg
 from ....groups.arrays import Array
 from ....svg import GRID, INK, PALE
 from ..fit.minimise import Step
-from .changes import AxisChange, MovableJoint, NamedResiduals
+from .changes import NamedResiduals
 
 PURPOSE = "a report of a calibration"
 WIDTH = 9.0
@@ -36,19 +36,6 @@ _STYLES: tuple[dict[str, Any], ...] = (
         "linestyle": ":",
         "linewidth": 1.3,
         "color": INK,
-    },
-)
-
-_DIRECTIONS: tuple[dict[str, Any], ...] = (
-    {
-        "fmt": "o",
-        "markerfacecolor": INK,
-        "label": "first direction",
-    },
-    {
-        "fmt": "s",
-        "markerfacecolor": "white",
-        "label": "second direction",
     },
 )
 
@@ -96,40 +83,6 @@ def _shares(values: Array) -> tuple[Array, Array]:
     even = np.linspace(0, len(x) - 1, MOST_DOTS)
     kept = np.unique(even.round().astype(int))
     return x[kept], 100.0 * (kept + 1) / len(x)
-
-
-def joints(found: Sequence[MovableJoint]) -> str:
-    """Tilt and shift of each joint's axis in its two directions, with 95 % intervals."""
-
-    def draw(figure: Any) -> None:
-        panels = figure.subplots(1, 2, sharey=True)
-        _bars(panels[0], "tilt (mrad)", [j.tilt for j in found])
-        _bars(panels[1], "shift (mm)", [j.shift for j in found])
-        names = [svg.label(j.name, 28) for j in found]
-        panels[0].set_yticks(range(len(found)), names)
-        panels[0].set_ylim(len(found) - 0.5, -0.5)
-        _legend(figure, panels[0], 2)
-
-    return _inline(1.3 + 0.36 * len(found), draw)
-
-
-def _bars(axes: Any, label: str, changes: Sequence[AxisChange]) -> None:
-    """The changes of each joint in its first and its second direction, with their intervals."""
-    axes.axvline(0, color=PALE, linewidth=0.8)
-    for k, style in enumerate(_DIRECTIONS):
-        rows = [i for i, change in enumerate(changes) if len(change.values) > k]
-        axes.errorbar(
-            [1e3 * changes[i].values[k] for i in rows],
-            [i + (k - 0.5) * 0.3 for i in rows],
-            xerr=[1e3 * changes[i].margins[k] for i in rows],
-            color=INK,
-            markersize=4.5,
-            elinewidth=1,
-            capsize=2.5,
-            **style,
-        )
-    axes.set_xlabel(label)
-    _plain(axes, "x")
 
 
 def uncertainty(length: Array, angle: Array) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 from ....errors import escape_unprintable
 from ..model.residuals import largest, median
 from ..result import CalibrationData
+from . import changes, pendant
 from .changes import milli
 
 MOST_OUTLIERS = 12
@@ -30,6 +31,9 @@ def text_of(found: CalibrationData) -> str:
         str(found.identification),
         *_table(found),
         _known(found),
+        *_joints(found),
+        *pendant.lines(found),
+        *_diagnosis(found),
         *map(str, found.terms),
         *outliers,
         *(f"do not use it: {words}" for words in found.verdict),
@@ -37,6 +41,16 @@ def text_of(found: CalibrationData) -> str:
         *found.remarks,
     ]
     return "\n".join(escape_unprintable(line, keep="\n") for line in lines)
+
+
+def _joints(found: CalibrationData) -> list[str]:
+    """Changes of each joint, base and tool aligned."""
+    return [str(joint) for joint in changes.aligned_joints(found)]
+
+
+def _diagnosis(found: CalibrationData) -> list[str]:
+    diagnosis = found.diagnosis
+    return [] if diagnosis is None else [str(diagnosis)]
 
 
 def _known(found: CalibrationData) -> str:

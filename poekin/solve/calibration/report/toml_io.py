@@ -112,8 +112,9 @@ def load(path: str | os.PathLike[str], terms: Sequence[Term] = ()) -> Calibratio
         noise_std=tuple(map(_noise, keys.tables("noise_std", ("length", "angle")))),
         loss=keys.text("loss", LOSSES),  # type: ignore[arg-type]  # one of these
         error_model=model,
-        vectors=None,
+        residuals=None,
         terms=tuple(map(_term, keys.tables("term", TermGain._fields))),
+        evidence=None,
         **{name: keys.texts(name) for name in _SAID if name in keys.data},
     )
     toml_checks.check_sets(keys, found)

@@ -139,6 +139,12 @@ def levers(chain: Chain, q: Array, gravity: Array, point: Array) -> Array:
     return _torques_of_rows(chain, q, conditions, point_mass(chain, place))
 
 
+def wrist_in_tip(chain: Chain) -> Array:
+    """The wrist (3,) in the tip frame."""
+    from_tip = wrist(chain) - translation_part(chain.home)
+    return rotation_part(chain.home).T @ from_tip
+
+
 def wrist(chain: Chain) -> Array:
     """The point (3,) at home, in the base frame, nearest to the last three axes that turn; where
     several are, the one nearest to the tip.

@@ -14,7 +14,7 @@ from poekin.groups import se3
 from poekin.solve.calibration import Points, Poses, calibrate
 from poekin.solve.calibration.diagnostics.identification import identify_directions
 from poekin.solve.calibration.fit import covariance, fitting, losses
-from poekin.solve.calibration.fit.covariance import _clusters, _meat, covariance_of
+from poekin.solve.calibration.fit.covariance import clusters_of, covariance_of, jackknife_meat
 from poekin.solve.calibration.fit.losses import LossName
 from poekin.solve.calibration.fit.minimise import FitOptions
 from poekin.solve.calibration.model.configurations import configurations
@@ -88,7 +88,7 @@ def test_the_sandwich_is_the_jackknife_that_leaves_out_a_configuration_at_a_time
         expected += np.outer(change, change)
     Q, R = np.linalg.qr(J)
     inverse = np.linalg.inv(R)
-    found = inverse @ _meat(Q, y - J @ whole, clusters) @ inverse.T
+    found = inverse @ jackknife_meat(Q, y - J @ whole, clusters) @ inverse.T
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
 
 
@@ -100,18 +100,20 @@ def test_what_one_configuration_alone_tells_is_known_to_the_noise_of_the_others(
     Q, R = np.linalg.qr(J)
     inverse = np.linalg.inv(R)
     e = np.array([1.0, -1.0] * 4 + [0.0])
-    found = inverse @ _meat(Q, e, np.repeat(np.arange(5), [2, 2, 2, 2, 1])) @ inverse.T
+    found = inverse @ jackknife_meat(Q, e, np.repeat(np.arange(5), [2, 2, 2, 2, 1])) @ inverse.T
     assert 0.2 < found[1, 1] < 0.6
 
 
 def test_a_prior_s_rows_count_as_they_are():
     Q = np.linalg.qr(np.random.default_rng(0).normal(size=(12, 3)))[0]
     e = np.zeros(9)
-    np.testing.assert_allclose(_meat(Q, e, np.repeat(range(3), 3)), Q[9:].T @ Q[9:], atol=1e-15)
+    np.testing.assert_allclose(
+        jackknife_meat(Q, e, np.repeat(range(3), 3)), Q[9:].T @ Q[9:], atol=1e-15
+    )
 
 
 def sets_of(q: np.ndarray, *sets: Any) -> Any:
-    return _clusters(Problem(MODEL, q, list(sets)))
+    return clusters_of(Problem(MODEL, q, list(sets)))
 
 
 def test_errors_are_taken_together_where_a_configuration_carries_more_than_a_point():
@@ -153,7 +155,7 @@ def test_what_is_left_of_a_configuration_by_every_reflector_widens_the_deviation
     p = points @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
     together = Points(p + 1e-3 * rng.normal(size=(60, 1, 3)), points)
     clustered = calibrate(PUMA, q, together, folds=0)
-    monkeypatch.setattr(covariance, "_clusters", lambda problem: None)
+    monkeypatch.setattr(covariance, "clusters_of", lambda problem: None)
     alone = calibrate(PUMA, q, together, folds=0)
     ratio = clustered.workspace(100).length / alone.workspace(100).length
     # the root of 3, but for the turns, which differences of reflectors tell

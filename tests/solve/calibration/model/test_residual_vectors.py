@@ -19,8 +19,8 @@ def calibrated(kind: Any, **options: Any) -> tuple[Any, Any, ResidualVectors]:
     made = pk.calibration.simulated(ARM, 40, kind=kind, seed=3, **options)
     options = {"on_rank_deficiency": "fix", "folds": 0}
     found = pk.calibrate(ARM, made.q, made.measurements, **options)
-    assert found.vectors is not None
-    return made, found, found.vectors
+    assert found.residuals is not None
+    return made, found, found.residuals
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -54,3 +54,52 @@ def test_the_vector_of_a_distance_points_along_the_line_to_the_centre():
     along = v.places - made.measurements.centre
     across = np.cross(v.after, along)
     assert np.abs(across).max() < 1e-16
+
+
+def test_residuals_in_axes_of_the_tool_turn_with_it():
+    made, found, v = calibrated("points")
+    R = found.chain.fk(made.q)[:, :3, :3]
+    np.testing.assert_allclose(v.R, R, atol=1e-15)
+    own = v.in_axes("tool")
+    # turned back they are the same, to rounding of three products
+    for turned, base in ((own.before, v.before), (own.after, v.after)):
+        np.testing.assert_allclose(np.einsum("nij,nj->ni", R, turned), base, atol=1e-17)
+    assert v.in_axes("base") is v
+
+
+def test_residuals_along_the_path_are_along_the_last_move_level_across_it_and_across_both():
+    _, _, v = calibrated("points")
+    way = np.diff(v.places, axis=0)
+    np.testing.assert_allclose(v.moves[1:], way, atol=1e-15)
+    path = v.in_axes("path").after
+    assert np.isnan(path[0]).all()
+    along = way / np.linalg.norm(way, axis=1, keepdims=True)
+    e = v.after[1:]
+    # 1e-17: rounding of tenths of a millimetre
+    np.testing.assert_allclose(path[1:, 0], np.sum(e * along, axis=1), atol=1e-17)
+    level = np.stack([-along[:, 1], along[:, 0], 0 * along[:, 0]], axis=1)
+    level /= np.linalg.norm(level, axis=1, keepdims=True)
+    np.testing.assert_allclose(path[1:, 1], np.sum(e * level, axis=1), atol=1e-17)
+    np.testing.assert_allclose(path[1:, 2], np.sum(e * np.cross(along, level), axis=1), atol=1e-17)
+
+
+def test_a_path_straight_up_has_its_second_axis_across_x():
+    _, _, v = calibrated("points")
+    up = v._replace(moves=np.tile([0.0, 0.0, 0.2], (len(v.moves), 1)))
+    e = up.in_axes("path").after
+    np.testing.assert_allclose(e, v.after[:, [2, 1, 0]] * [1, -1, 1], atol=1e-17)
+
+
+def test_moves_are_from_the_readings_before_where_these_are_given():
+    made = pk.calibration.simulated(ARM, 40, kind="points", seed=3)
+    other = ARM.random(5, 40)
+    options = {"on_rank_deficiency": "fix", "folds": 0, "conditions": {"previous": other}}
+    found = pk.calibrate(ARM, made.q, made.measurements, **options)
+    came = found.residuals.places - found.chain.fk(other)[:, :3, 3]
+    np.testing.assert_allclose(found.residuals.moves, came, atol=1e-14)
+
+
+def test_other_axes_are_refused():
+    _, _, v = calibrated("points")
+    with pytest.raises(pk.errors.InputError, match="axes: expected 'base', 'tool' or 'path'"):
+        v.in_axes("world")

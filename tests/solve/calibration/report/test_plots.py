@@ -11,12 +11,7 @@ from poekin import svg
 from poekin.solve.calibration.fit.minimise import Step
 from poekin.solve.calibration.model.residuals import Residuals
 from poekin.solve.calibration.report import plots
-from poekin.solve.calibration.report.changes import (
-    TWO_SIGMA,
-    AxisChange,
-    MovableJoint,
-    NamedResiduals,
-)
+from poekin.solve.calibration.report.changes import NamedResiduals
 
 matplotlib = pytest.importorskip("matplotlib")
 
@@ -108,52 +103,6 @@ def test_many_measurements_are_thinned_out_evenly():
     assert share == pytest.approx(100 * x / 4000)
     assert set(np.diff(x)) == {10, 11} or np.diff(x).max() - np.diff(x).min() <= 1
     assert [a.tolist() for a in plots._shares(np.array([np.nan]))] == [[], []]
-
-
-def change(*values):
-    k = len(values)
-    return AxisChange(np.array(values), np.diag([1e-8, 4e-8][:k]).reshape(k, k))
-
-
-def test_the_changes_of_each_joint_stand_in_its_row_with_their_intervals(drawn):
-    found = [
-        MovableJoint("one", change(1e-3, -2e-3), change(3e-3, 4e-3)),
-        MovableJoint("$two$", change(5e-3, 6e-3), change()),
-    ]
-    plots.joints(found)
-    (figure,) = drawn
-    assert figure.get_size_inches() == pytest.approx([9.0, 1.3 + 0.72])
-    for axes, label, firsts, seconds in (
-        (figure.axes[0], "tilt (mrad)", [1, 5], [-2, 6]), (figure.axes[1], "shift (mm)", [3], [4]),
-    ):  # fmt: skip
-        assert axes.get_xlabel() == label
-        assert axes.lines[0].get_xdata() == [0, 0]
-        for (points, _, (bars,)), values, shift, face in zip(
-            axes.containers, (firsts, seconds), (-0.15, 0.15),
-            (svg.INK, "white"), strict=True,
-        ):  # fmt: skip
-            rows = np.arange(len(values))
-            assert np.asarray(points.get_xdata(), float) == pytest.approx(np.array(values))
-            assert np.asarray(points.get_ydata(), float) == pytest.approx(rows + shift)
-            assert (points.get_marker(), points.get_markerfacecolor()) == (
-                "s" if shift > 0 else "o",
-                face,
-            )
-            margin = 1e3 * TWO_SIGMA * (1e-4 if shift < 0 else 2e-4)
-            for (left, right), x, y in zip(bars.get_segments(), values, rows + shift, strict=True):
-                assert np.array([left, right]) == pytest.approx(
-                    np.array([[x - margin, y], [x + margin, y]])
-                )
-            assert bars.get_linewidth() == 1
-    assert [words.get_text() for words in figure.legends[0].get_texts()] == [
-        "first direction",
-        "second direction",
-    ]
-    assert [words.get_text() for words in figure.axes[0].get_yticklabels()] == ["one", r"\$two\$"]
-    assert figure.axes[0].get_yticks().tolist() == [0, 1]
-    assert [axes.get_ylim() for axes in figure.axes] == [
-        (1.5, -0.5)
-    ] * 2  # the first joint is on top
 
 
 def test_uncertainties_are_shares_of_the_configurations_in_mm_and_mrad(drawn):

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import re
 import sys
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -100,10 +100,11 @@ def test_a_calibration_comes_back_to_the_last_bit(found, tmp_path):
     found.save(tmp_path / "arm.toml")
     again = load(tmp_path / "arm.toml", [RIPPLE])
     for field in fields(found):
-        if field.name not in ("error_model", "vectors"):  # measurements are not in the file
+        # measurements are not in the file
+        if field.name not in ("error_model", "residuals", "evidence"):
             assert same(getattr(found, field.name), getattr(again, field.name)), field.name
     assert again.error_model.parameters == found.error_model.parameters
-    assert str(again) == str(found)
+    assert str(again) == str(replace(found, residuals=None, evidence=None))
     q = found.nominal.random(3, 4)
     np.testing.assert_array_equal(again.pose_covariance(q), found.pose_covariance(q))
     np.testing.assert_array_equal(again.true_joints(q), found.true_joints(q))

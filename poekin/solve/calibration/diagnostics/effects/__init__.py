@@ -1,0 +1,1 @@
+"""Effects in residuals: each a cause that a calibration left out, tested for being there."""
