@@ -72,7 +72,7 @@ NEAR = {
     "model/analytic model/hp model/pose_jacobian": f"own {_REFUSALS} {CHAINS}",
     "model/arm": "own formats/emit_python solve/ik",
     "model/axis_walk": "own model/idealised",
-    "model/chain model/chain_data model/other_frames model/outputs model/sampling": (
+    "model/chain model/chain_data model/other_frames model/outputs": (
         f"{CHAINS} model/chain_data {_REFUSALS} model/coordinates model/pitches"
     ),
     "model/checks": f"own model/joint {_REFUSALS} {CHAINS}",
@@ -85,6 +85,7 @@ NEAR = {
     "model/local": f"own {CHAINS} model/pitches model/idealised",
     "model/normals": "model/axis_walk model/idealised model/hp formats/dh_values formats/dh",
     "model/provenance model/robot model/tree": _ROBOTS,
+    "model/sampling": f"model/coupled model/idealise {CHAINS} {_REFUSALS}",
     "model/screw": f"model/screw_values own {_REFUSALS} model/pitches model/checks {CHAINS}",
     "model/unit_screws": f"model/screw_values model/pitches {_REFUSALS}",
     "model/structure": "own model/compiled",
