@@ -100,6 +100,7 @@ def test_the_summary_names_measure_and_quantiles():
             {"ends": (1.0, 1.0)},
             r"^ends: expected two numbers, the smaller one first, got \(1\.0, 1\.0\)$",
         ),
+        ("travel", {"ends": (2.0, 1.0)}, "ends: expected two numbers, the smaller one first"),
         ("travel", {"ends": (0.0, math.inf)}, "ends: expected two numbers"),
         ("travel", {"ends": (math.nan, 1.0)}, "ends: expected two numbers"),
         ("travel", {"samples": 0}, "count: expected a whole number"),
