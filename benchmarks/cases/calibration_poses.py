@@ -48,7 +48,8 @@ MANY, MANY_BAR = 10_000, 2.0
 
 TEXT = (
     f"poekin chooses {CHOSEN} of {CANDIDATES} configurations, drawn within the limits, for calibrating all screws and "
-    "the home pose, from full poses and from the positions of one point, by the noise amplification index and, for "
+    "the home pose, from full poses and from the positions of one point, by the predicted error, "
+    "the noise amplification index and, for "
     f"{' and '.join(EVERY)}, by every other criterion too. Each is compared with the median "
     f"of 100 random choices of {CHOSEN} of the same candidates: how many times better, for the condition and for the "
     "errors how many times smaller. Angles in rad, lengths in reaches.\n\n"
