@@ -247,3 +247,9 @@ def test_bad_separations_are_refused_and_said_where(what):
     with pytest.raises(error) as caught:
         make()
     assert says(caught.value, message), str(caught.value)
+
+
+def test_points_are_guessed_by_what_measures_them_however_many_separations_there_are():
+    sets = [Separations(APART, "plate", 1e-10), Points(seen(T[:2]), "plate")]
+    seen_by = identify(ARM, Q[:2], sets)
+    assert seen_by.n_equations == 3 + 18
