@@ -20,7 +20,6 @@ from poekin.solve.calibration import Distances, Points, Poses, calibrate
 from poekin.solve.calibration.measurements import data
 from poekin.solve.calibration.measurements.simulated import simulated
 from poekin.solve.calibration.report import changes, toml_io
-from poekin.solve.calibration.report.changes import milli
 from poekin.solve.calibration.report.summary import MOST_OUTLIERS
 
 PANDA = pk.load("panda").chain(tip="panda_link8")
