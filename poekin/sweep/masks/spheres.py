@@ -77,11 +77,9 @@ def _checked(robot: Robot, one: Any, where: str) -> LinkSphere:
 def _moved(robot: Robot, chain: Chain, spheres: list[LinkSphere]) -> MovedLink:
     link = spheres[0].link
     way = robot.chain(chain.base, link)
-    joints = 0
-    for ours, theirs in zip(chain.joint_names, way.joint_names, strict=False):
-        if ours != theirs:
-            break
-        joints += 1
+    # two ways in a tree that begin at one link part once
+    both = zip(chain.joint_names, way.joint_names, strict=False)
+    joints = sum(ours == theirs for ours, theirs in both)
     points = np.array([sphere.centre for sphere in spheres])
     centres = points @ rotation_part(way.home).T + translation_part(way.home)
     radii = np.array([sphere.radius for sphere in spheres])

@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from poekin.formats.visuals import urdf_visuals
+from poekin.sweep.masks import covering as covering_module
 from poekin.sweep.masks.covering import covering
+from poekin.view.meshes.mesh_nodes import ShapeReader
 from tests.sweep.masks.arm_of_all_shapes import SHAPES, robot_in, urdf
 
 RNG = np.random.default_rng(0)
@@ -72,3 +75,25 @@ def test_smaller_tolerances_take_more_spheres_that_stand_out_less(tmp_path):
     assert list(counts) == sorted(counts)
     assert counts[0] < counts[2]
     assert list(excesses) == sorted(excesses, reverse=True)
+
+
+def test_the_excess_is_that_of_the_sphere_that_stands_out_most(tmp_path):
+    worst = 0.0
+    for link, shape in SHAPES.items():
+        alone = robot_in(
+            tmp_path, urdf(dict.fromkeys(SHAPES, "<sphere radius='0.01'/>") | {link: shape})
+        )
+        worst = max(worst, covering(alone, 0.1).excess)
+    for order in (SHAPES, dict(reversed(SHAPES.items()))):
+        assert covering(robot_in(tmp_path, urdf(order)), 0.1).excess == worst
+
+
+def test_the_polygon_of_a_cylinder_is_around_its_circle(tmp_path):
+    robot = robot_in(tmp_path)
+    found = urdf_visuals.read(urdf(), "r", "collision").found
+    (cylinder,) = (shape for shape in found if shape.shape == "cylinder")
+    around = covering_module._around(cylinder)
+    (part,) = ShapeReader(robot).parts(around)
+    corners = np.hypot(*part.vertices[:, :2].T).max()
+    # the middle of a side is the nearest to the axis
+    assert corners * np.cos(np.pi / 32) >= 0.05 - 1e-8
