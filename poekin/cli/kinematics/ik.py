@@ -132,7 +132,8 @@ def _give(
 
 
 def _report(found: Solution, reasons: dict[int, str], single: bool) -> dict[str, object]:
-    parts: dict[str, Any] = found.to_dict() | {"why": [reasons.get(k) for k in range(len(found.q))]}
+    parts: dict[str, Any] = found.to_dict()
+    parts["why"] = [reasons.get(k) for k in range(len(found.q))]
     if single:
         return {key: next(iter(values), ()) for key, values in parts.items()}
     return parts

@@ -83,7 +83,8 @@ def _show(chain: Chain, result: dh.FromChain) -> None:
             say(f"\n{what}:")
             matrix(np.where(np.abs(T) < nothing, 0.0, T))
     say()
-    if chain.dof != len(found) or (chain.coupling != np.eye(chain.dof)).any() or chain.offset.any():
+    plain = chain.nontrivial_coupling is None and not chain.offset.any()
+    if chain.dof != len(found) or not plain:
         say(
             "x are the joints' own values: what follows another joint does so by its ratio and offset"
         )

@@ -28,11 +28,14 @@ def torques(screws, bodies, x, sines, cosines, gravity, count, forces):
     for i in range(count - 1, -1, -1):
         m = bodies[i][0]
         mass = mass + m
-        moment = add(moment, scale(m, (bodies[i][1], bodies[i][2], bodies[i][3])))
+        centre = (bodies[i][1], bodies[i][2], bodies[i][3])
+        moment = add(moment, scale(m, centre))
         T = motion(screws[i], x[i], sines[i], cosines[i])
         moment = add(rotate(T, moment), scale(mass, translation(T)))
         g = (forces[i][0], forces[i][1], forces[i][2])
-        forces[i][0] = dot(angular(screws[i]), cross(moment, g)) + mass * dot(linear(screws[i]), g)
+        turning = dot(angular(screws[i]), cross(moment, g))
+        sliding = mass * dot(linear(screws[i]), g)
+        forces[i][0] = turning + sliding
 
 
 def motion(screw, x, sine, cosine):

@@ -106,7 +106,8 @@ def moved_masses(
     for number in tree.order:
         parent = tree.parent_link[number]
         child = tree.child_link[number]
-        poses[child] = compose(poses[parent], joints[number].origin.ravel()[TWELVE].tolist())
+        origin = joints[number].origin.ravel()
+        poses[child] = compose(poses[parent], origin[TWELVE].tolist())
         if bodies[child] < 0:
             bodies[child] = bodies[parent]
     to_base = inverse(poses[base])

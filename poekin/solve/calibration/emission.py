@@ -151,7 +151,8 @@ def _traced(found: CalibrationData, columns: Sequence[Column]) -> Program:
     for term in model.terms:
         behind = first + len(term.parameters)
         owners, columns_of = _formula(term)
-        values = zip(owners.tolist(), columns_of(x), p[first:behind].tolist(), strict=True)
+        own = p[first:behind].tolist()
+        values = zip(owners.tolist(), columns_of(x), own, strict=True)
         for owner, value, c in values:
             outputs[owner] = outputs[owner] + c / (1.0 + gains[owner]) * value
         first = behind

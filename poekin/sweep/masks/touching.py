@@ -31,9 +31,11 @@ def touching(
     for k, (i, j) in enumerate(pairs):
         together = np.add.outer(links[i].radii, links[j].radii)
         # spheres of two links touch only where those do that hold all of them
-        near = norms(places[i][:, 0] - places[j][:, 0]) <= together[0, 0]
-        apart = norms(places[i][near, 1:, None] - places[j][near, None, 1:])
-        found[near, k] = (apart <= together[1:, 1:]).any(axis=(1, 2))
+        between = places[i][:, 0] - places[j][:, 0]
+        near = norms(between) <= together[0, 0]
+        between = places[i][near, 1:, None] - places[j][near, None, 1:]
+        touching = norms(between) <= together[1:, 1:]
+        found[near, k] = touching.any(axis=(1, 2))
     return found
 
 

@@ -86,7 +86,8 @@ class JointTravel(Measure):
             given = np.asarray(values, float)
             if given.shape != (chain.dof,):
                 raise ShapeError(f"{what}: expected {chain.dof} numbers, got {given.shape}")
-            if not np.isfinite(given).all() or (what == "speeds" and not (given > 0).all()):
+            least = 0.0 if what == "speeds" else -np.inf
+            if not (np.isfinite(given) & (given > least)).all():
                 raise InputError(f"{what}: expected finite numbers, speeds above 0, got {values}")
 
     def numbers(self, chain: Chain) -> Array:

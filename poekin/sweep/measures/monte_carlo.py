@@ -146,7 +146,8 @@ def monte_carlo(
     means = sums / draws
     # errors begin at the true pose: a mean is far smaller than what lies about it
     variances = squares / draws - np.square(means)
-    of_orientation, of_position = np.sqrt(variances.reshape(-1, 2, 3).sum(axis=2)).T
+    both = variances.reshape(-1, 2, 3).sum(axis=2)
+    of_orientation, of_position = np.sqrt(both).T
     batch = q.shape[:-1]
     return DrawnErrors(
         of_position.reshape(batch),

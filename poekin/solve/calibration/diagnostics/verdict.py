@@ -130,7 +130,8 @@ def _moved(found: CalibrationData) -> Iterator[str]:
     nominal = found.nominal
     lengths = norms(translation_part(nominal.local.frames))
     lengths = np.maximum(lengths, _LEAST_LINK * nominal.reach)
-    links = dict(zip(nominal.joint_names, np.maximum(lengths[:-1], lengths[1:]), strict=True))
+    longer = np.maximum(lengths[:-1], lengths[1:])
+    links = dict(zip(nominal.joint_names, longer, strict=True))
     tilts = dict.fromkeys(nominal.joint_names, 0.0)
     shifts = tilts.copy()
     own = found.error_model.parameters

@@ -106,8 +106,8 @@ class FromFk(Result):
 
     def summary(self) -> str:
         """Digits, bounds and remarks as text, in µm and µrad."""
-        residuals = np.abs(self.fit.errors).reshape(-1, 2, 3).max(axis=(0, 2), initial=0.0)
-        screws = self.screw_bounds.reshape(-1, 2, 3).max(axis=(0, 2), initial=0.0)
+        residuals = _largest(np.abs(self.fit.errors))
+        screws = _largest(self.screw_bounds)
         lines = [
             f"{len(self.fit.errors)} exact pairs, residuals of at most {_sizes(residuals)}",
             f"screws: directions and moments known to {_sizes(screws)} at worst",
@@ -146,6 +146,11 @@ def drawn_pose_errors(
     # of angles without any noise the estimate is a floor, which the bound may be below
     typical = np.minimum(np.sqrt(squares), largest)
     return PoseErrors(*typical), PoseErrors(*map(np.asarray, largest))
+
+
+def _largest(values: Array) -> Array:
+    """The largest of angles and of lengths, of rows of both."""
+    return values.reshape(-1, 2, 3).max(axis=(0, 2), initial=0.0)
 
 
 def _sizes(values: Iterable[float | Array]) -> str:

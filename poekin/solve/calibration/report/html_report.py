@@ -191,7 +191,8 @@ def _by_point(residuals: ResidualVectors, evidence: FitEvidence) -> Iterator[str
         end = begin + len(s) * count
         for j in range(count):
             mine = e[begin + j : end : count]
-            numbers = [milli(x) for x in (*mine.mean(axis=0), rms(norms(mine)))]
+            figures = [*mine.mean(axis=0), rms(norms(mine))]
+            numbers = map(milli, figures)
             rows.append((str(k), s.what, str(j + 1), *numbers))
         begin = end
     yield caption("Means in axes of the tool, by set of measurements and point")
@@ -228,7 +229,8 @@ def _typed(frame: FrameEstimate) -> str:
 
 def _uncertainty(found: CalibrationData) -> Iterator[str]:
     known = found.workspace()
-    lengths, angles = ([milli(median(x)), milli(largest(x))] for x in (known.length, known.angle))
+    both = (known.length, known.angle)
+    lengths, angles = ([milli(median(x)), milli(largest(x))] for x in both)
     worst = ", ".join(f"{x:.3g}" for x in known.worst)
     yield paragraph(
         f"At {len(known.q)} random configurations within the limits, the tip's position has a "

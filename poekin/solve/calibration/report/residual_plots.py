@@ -122,7 +122,8 @@ def _dots(
     known = np.isfinite(panel.y)
     x = panel.x[known]
     y = panel.y[known]
-    some = np.unique(np.linspace(0, len(x) - 1, min(len(x), _MOST_DOTS)).astype(int))
+    dots = min(len(x), _MOST_DOTS)
+    some = np.unique(np.linspace(0, len(x) - 1, dots).astype(int))
     axes.plot(x[some], y[some], "o", color=PALE, markersize=2, alpha=0.7)
     parts = [part for part in np.array_split(np.argsort(x), _BINS) if len(part) > 1]
     if parts:

@@ -46,7 +46,7 @@ class EffectTest(NamedTuple):
     p : float
         Chance of so large an effect, in any of the tests, where there is nothing but noise.
     size : float
-        SetNumbers of the residuals that it explains, root mean square, m; of a loose reflector, all of
+        Part of the residuals that it explains, root mean square, m; of a loose reflector, all of
         its own.
     against : bool
         Whether a joint turns against its load.

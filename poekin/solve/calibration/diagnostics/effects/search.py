@@ -185,7 +185,8 @@ class EffectSearch:
         variance = float(of_kept @ of_kept) / max(len(of_kept) - self._fitted.shape[1], 1)
         found = []
         for s, part in zip(self._problem.sets, self._parts, strict=True):
-            squares = np.sum(e[part.numbers].reshape(-1, s.width) ** 2, axis=1)
+            rows = e[part.numbers].reshape(-1, s.width)
+            squares = np.sum(rows**2, axis=1)
             width = np.count_nonzero(self._firm[part.numbers]) / len(s)
             scale = variance if s.covariance is None else 1.0
             found.append(squares > scale * chi_square(width, OUTLIER))
