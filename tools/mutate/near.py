@@ -113,6 +113,7 @@ NEAR = {
     "view/exaggerated view/overlay": f"view/exaggerated {_DRAWN} {_SCENES}",
     "view/scenes/sweep_map": "view/sweep_map_scene view/view",
     "engine/kernels/sweep/": "sweep/",
+    "sweep/error_program": "sweep/measures sweep/monte_carlo sweep/error_sources",
     "view/view": "own",
     "cli/fk": "own cli/units cli/poses",
     "cli/show": "cli/reach cli/options",
