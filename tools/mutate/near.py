@@ -116,6 +116,7 @@ NEAR = {
     "engine/kernels/sweep/": "own sweep/",
     "engine/samples": "own sweep/samples sweep/sobol",
     "engine/tiles": "own sweep/cells sweep/tile_centres",
+    "sweep/error_program": "sweep/measures sweep/monte_carlo sweep/error_sources",
     "view/view": "own",
     "cli/fk": "own cli/units cli/poses",
     "cli/show": "cli/reach cli/options",
