@@ -8,6 +8,7 @@ import llvmlite
 import numpy as np
 
 from ..jit import cache
+from ..jit.source_hash import LOADED_PROGRAMS
 from .machine_code import Layout, LoadedCode, object_code, processor
 from .program import Program
 
@@ -35,7 +36,8 @@ def arm_code(
     """The machine code of the program that `make` makes. key: all that it depends on besides
     poekin's source.
     """
-    path = cache.entry("arm", (key, pose, layout, processor(), llvmlite.__version__))
+    beside = (LOADED_PROGRAMS, pose, layout, processor(), llvmlite.__version__)
+    path = cache.entry("arm", (key, beside))
     kept = None if path is None else cache.read(path)
     if kept is None:
         program = make()

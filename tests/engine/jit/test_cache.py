@@ -18,9 +18,9 @@ import pytest
 from numba.core import config
 
 import poekin
-from poekin.engine.jit import cache
+from poekin.engine.jit import cache, source_hash
 from poekin.engine.jit.kernel import Kernel
-from poekin.engine.jit.source_hash import source_key
+from poekin.engine.jit.source_hash import KERNELS, PROGRAMS, source_key
 from poekin.engine.kernels import group_kernels
 from poekin.model.chain import Chain
 
@@ -507,15 +507,26 @@ def test_no_home_at_all_costs_a_compilation(session, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "file", ["algebra.py", "formulas/exponential.py", "formulas/coefficients.py", "engine/rows.py"]
+    ("file", "rooms"),
+    [
+        ("algebra.py", KERNELS),
+        ("formulas/lie/exponential.py", KERNELS),
+        ("engine/kernels/group_kernels.py", KERNELS),
+        ("model/kinematics/programs.py", PROGRAMS),
+        ("sweep/measures/error_program.py", PROGRAMS),
+        ("sweep/masks/self_collision.py", PROGRAMS),
+    ],
 )
-def test_an_edit_anywhere_in_the_formulas_makes_a_new_key(tmp_path, file):
+def test_an_edit_of_what_is_compiled_makes_a_new_key(tmp_path, file, rooms):
     copy = tmp_path / "poekin"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    before = source_key(copy)
-    with (copy / file).open("a") as text:
-        text.write("\n")
-    assert source_key(copy) != before
+    keys = [source_key(copy, which) for which in (KERNELS, PROGRAMS)]
+    assert keys == [source_hash.LOADED, source_hash.LOADED_PROGRAMS]
+    with (copy / file).open("rb+") as text:  # it is there
+        text.seek(0, 2)
+        text.write(b"\n")
+    for which, key in zip((KERNELS, PROGRAMS), keys, strict=True):
+        assert (source_key(copy, which) != key) is (which is rooms)
 
 
 def test_an_edit_even_while_a_session_is_open_changes_the_result_of_the_next_process_alone(
