@@ -162,10 +162,12 @@ def test_a_term_of_the_user_s_own_and_no_term_at_all_cannot_be_written():
         found.emit("c")
     with pytest.raises(InputError, match="there are no non-geometric terms"):
         calibrated(ARM, ("screws", "home")).emit("python")
+    wrong: Any = "rust"
     with pytest.raises(InputError, match="language: expected 'c' or 'python', got 'rust'"):
-        CASES["every term"].emit("rust")
+        CASES["every term"].emit(wrong)
+    wrong = 7
     with pytest.raises(InputError, match="name: expected a text, got 7"):
-        CASES["every term"].emit("c", name=7)
+        CASES["every term"].emit("c", name=wrong)
 
 
 @pytest.mark.parametrize("name", HOSTILE)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -156,7 +158,8 @@ def test_the_summary_says_how_well_each_axis_is_known():
     rms = [axis.rms for axis in found.axes]
     np.testing.assert_allclose(rms, np.sqrt(2) * NOISE, rtol=0.5)
     assert found.chain.base == "device"
-    assert found.to_dict()["axes"][2]["radius"] == 0.0
+    axes: Any = found.to_dict()["axes"]
+    assert axes[2]["radius"] == 0.0
 
 
 def test_a_sweep_of_another_point_is_named():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ HELD = np.array([0.0, -1.0, 1.0, 0.3, 0.2, 0.1])
 Q = swept(UR5, 2, HELD, count=9)
 T = UR5.fk(Q)
 P = T[:, :3, 3]
+WRONG: Any = "fixed"
 
 
 def also(joint, by):
@@ -36,7 +38,7 @@ def nan():
 BAD = {
     "no joint": (lambda: JointSweep(-1, Q, P), InputError, "joint: expected a whole number from 0 on, got -1"),
     "another kind": (
-        lambda: JointSweep(2, Q, P, "fixed"), InputError,
+        lambda: JointSweep(2, Q, P, WRONG), InputError,
         "kind: expected 'revolute' or 'prismatic', got 'fixed'",
     ),
     "a joint that is not there": (

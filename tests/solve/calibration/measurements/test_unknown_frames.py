@@ -11,6 +11,7 @@ from poekin.solve.calibration import EyeToHand, Poses, calibrate, identify, read
 
 ARM = pk.load("ur5").chain()
 MADE = simulated(ARM, 40, seed=3, kind="eye-to-hand")
+assert isinstance(MADE.measurements, EyeToHand)
 SEEN = MADE.measurements.T_camera_board
 FRESH = ARM.random(9, 50)
 
@@ -29,6 +30,8 @@ def test_both_unknown_is_the_fit_of_a_camera_and_a_board():
 def test_one_unknown_frame_is_found_with_the_arm(frame, tool):
     """Six numbers more, none of which the poses tell apart from those of base or home."""
     exact = simulated(ARM, 40, seed=3, kind="eye-to-hand", noise=(0, 0))
+    assert exact.X is not None
+    assert exact.Z is not None
     truth = exact.truth.fk(exact.q)
     T = se3.inverse(exact.X) @ truth if frame == "unknown" else truth @ exact.Z
     poses = Poses(T, frame=frame, tool=tool)
@@ -51,5 +54,6 @@ def test_one_unknown_frame_is_found_with_the_arm(frame, tool):
 def test_a_file_of_poses_takes_them_too(tmp_path):
     write(tmp_path / "poses.csv", ARM, MADE.q, Poses(SEEN))
     _, poses = read(tmp_path / "poses.csv", ARM, frame="unknown", tool="unknown")
+    assert isinstance(poses, Poses)
     assert [u.name for u in poses.unknown_frames] == ["T_base_device", "T_tip_probe"]
     np.testing.assert_allclose(poses.T, SEEN, rtol=0, atol=1e-15)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -33,7 +35,7 @@ APART = np.linalg.norm(TOOL[:, None] - TOOL, axis=-1)
 NOISE = 1e-4
 
 
-def seen(poses, points=TOOL, device=None):
+def seen(poses, points: Sequence[np.ndarray] | np.ndarray = TOOL, device=None):
     """Positions (N, k, 3) of points of the tool, in the base or in a device's frame."""
     X = np.eye(4) if device is None else device
     return np.array([[(se3.inverse(X) @ pose @ [*y, 1.0])[:3] for y in points] for pose in poses])
@@ -105,7 +107,8 @@ def test_a_device_and_points_are_guessed_in_spite_of_outliers():
 def test_residuals_are_in_base_axes_and_at_the_points():
     p = seen(T, device=DEVICE) + NOISE * np.random.default_rng(2).normal(size=(40, 3, 3))
     found = calibrate(ARM, Q, Points(p, None, frame="unknown"), folds=0)
-    vectors = found.vectors
+    vectors = found.residuals
+    assert vectors is not None
     X, *points = found.frames.values()
     places = seen(found.chain.fk(Q), points)
     np.testing.assert_allclose(vectors.places, places.reshape(-1, 3), rtol=0, atol=1e-12)
@@ -152,7 +155,8 @@ def test_all_separations_hold_and_leave_the_arm_better_known():
     without = np.trace(plate().pose_covariance(FRESH)[:, 3:, 3:].mean(axis=0))
     assert np.trace(found.pose_covariance(FRESH)[:, 3:, 3:].mean(axis=0)) < without
     assert len(found.after.of_set(1)) == 3
-    assert len(found.vectors.rows) == 120  # a separation is nowhere
+    assert found.residuals is not None
+    assert len(found.residuals.rows) == 120  # a separation is nowhere
 
 
 def test_the_slopes_of_separations_are_those_of_their_errors():

@@ -38,6 +38,7 @@ def test_lengths_and_readings_are_their_means_and_covariances_those_of_a_mean():
     p = RNG.normal(size=(6, 2, 3))
     points = Points(p, points=np.eye(3)[:2], covariance=C, frame="unknown")
     q, means = average_repeats(Q, points)
+    assert isinstance(means, Points)
     np.testing.assert_allclose(q, [Q[rows].mean(axis=0) for rows in WHOSE], rtol=1e-15)
     np.testing.assert_allclose(means.p, [p[rows].mean(axis=0) for rows in WHOSE], atol=1e-15)
     expected = [C[rows].sum(axis=0) / len(rows) ** 2 for rows in WHOSE]
@@ -50,6 +51,7 @@ def test_lengths_and_readings_are_their_means_and_covariances_those_of_a_mean():
 def test_distances_of_unknown_noise_stay_so_and_rows_may_say_which_readings():
     d = Distances(np.arange(1.0, 5), rows=[0, 2, 1, 3])
     q, means = average_repeats(Q, d)
+    assert isinstance(means, Distances)
     np.testing.assert_array_equal(means.d, [1.5, 3, 4])
     assert means.covariance is None
     np.testing.assert_array_equal(q, Q[[0, 1, 3]])
@@ -81,9 +83,11 @@ def test_a_file_s_repeated_rows_are_kept_unless_their_mean_is_asked_for(tmp_path
     np.testing.assert_array_equal(q, Q)
     assert len(kept) == 6
     q, means = read(path, ARM, repeats="average")
-    expected = average_repeats(Q, points)
-    np.testing.assert_array_equal(q, expected[0])
-    np.testing.assert_array_equal(means.p, expected[1].p)
+    mean_q, expected = average_repeats(Q, points)
+    assert isinstance(means, Points)
+    assert isinstance(expected, Points)
+    np.testing.assert_array_equal(q, mean_q)
+    np.testing.assert_array_equal(means.p, expected.p)
     said = "repeats: expected 'keep' or 'average', got 'mean'"
     with pytest.raises(InputError, match=f"^{re.escape(said)}$"):
         read(path, ARM, repeats="mean")  # type: ignore[arg-type]

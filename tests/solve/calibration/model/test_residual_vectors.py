@@ -95,11 +95,13 @@ def test_moves_are_from_the_readings_before_where_these_are_given():
     other = ARM.random(5, 40)
     options = {"on_rank_deficiency": "fix", "folds": 0, "conditions": {"previous": other}}
     found = pk.calibrate(ARM, made.q, made.measurements, **options)
+    assert found.residuals is not None
     came = found.residuals.places - found.chain.fk(other)[:, :3, 3]
     np.testing.assert_allclose(found.residuals.moves, came, atol=1e-14)
 
 
 def test_other_axes_are_refused():
     _, _, v = calibrated("points")
+    wrong: Any = "world"
     with pytest.raises(pk.errors.InputError, match="axes: expected 'base', 'tool' or 'path'"):
-        v.in_axes("world")
+        v.in_axes(wrong)

@@ -6,8 +6,9 @@ Derivatives are exact, by complex steps: nothing here compares or takes an absol
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
-from scipy.linalg import lstsq
 from scipy.optimize import least_squares
 
 STEP = 1e-100
@@ -74,13 +75,12 @@ def fit(screws, home, point, q, measured, basis):
         steps = 1j * STEP * np.eye(len(p))
         return np.array([residuals(p + step).imag / STEP for step in steps]).T
 
+    jac: Any = jacobian  # SciPy has no types: its own default, a text, is taken for that of jac
     start = np.zeros(6 * (n + 1) + B.shape[2])
-    p = least_squares(
-        residuals, start, jac=jacobian, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=30
-    ).x
+    p = least_squares(residuals, start, jac=jac, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=30).x
     for _ in range(MOST):
         J = jacobian(p)
-        step = lstsq(J, residuals(p), cond=SEEN)[0]
+        step = np.linalg.lstsq(J, residuals(p), rcond=SEEN)[0]
         p = p - step
         # mm, of all predictions: in directions that hardly show a step is longer and changes nothing
         change = np.abs(J @ step).max()

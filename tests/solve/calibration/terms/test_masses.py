@@ -45,9 +45,9 @@ def test_joints_yield_by_the_gravity_torque_of_all_bodies(direction):
         i = UR5.q_names.index(parameter.owner)
         if parameter.what == "compliance":
             step = h * np.eye(6)[i]
-            ends = [[work(ARM, q + sign * step, g) for q in Q] for sign in (1, -1)]
+            up, down = (np.array([work(ARM, q + sign * step, g) for q in Q]) for sign in (1, -1))
             # a central difference: h^2 of 100 J, and rounding of that over h
-            torque = np.subtract(*ends) / (2 * h)
+            torque = (up - down) / (2 * h)
             np.testing.assert_allclose(B[:, i, j], torque, rtol=0, atol=1e-8)
         else:
             lever = levers(UR5, Q, np.tile(g, (4, 1)), np.zeros(3))[:, i]

@@ -8,6 +8,7 @@ import numpy as np
 
 import poekin as pk
 from poekin.groups import se3
+from poekin.solve.calibration.diagnostics.effects.diagnosis import ResidualDiagnosis
 from poekin.solve.calibration.terms.gravity import levers, wrist_in_tip
 
 ARM = pk.load("ur5").chain()
@@ -64,3 +65,9 @@ def calibrated(planted, seed, count=3):
     q, p = made(planted, seed, points)
     measured = pk.calibration.Points(p, points)
     return pk.calibrate(ARM, q, measured, folds=0, on_rank_deficiency="fix")
+
+
+def diagnosis_of(found: pk.calibration.Calibration) -> ResidualDiagnosis:
+    """Diagnosis of a calibration that has its measurements."""
+    assert found.diagnosis is not None
+    return found.diagnosis

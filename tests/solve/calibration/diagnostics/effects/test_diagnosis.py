@@ -17,6 +17,7 @@ from tests.solve.calibration.diagnostics.effects.planted import (
     POINTS,
     ROWS,
     calibrated,
+    diagnosis_of,
     made,
 )
 
@@ -58,7 +59,7 @@ VERDICTS = [
 
 @pytest.mark.parametrize(("planted", "count", "verdict", "what"), VERDICTS)
 def test_what_was_planted_is_named_first(planted, count, verdict, what):
-    found = calibrated(planted, 1, count).diagnosis
+    found = diagnosis_of(calibrated(planted, 1, count))
     first = found.findings[0]
     assert first.verdict == verdict
     assert first.what == what
@@ -70,7 +71,7 @@ def test_what_was_planted_is_named_first(planted, count, verdict, what):
 
 def test_a_diagnosis_of_noise_says_so_and_what_came_nearest():
     found = calibrated("nothing", 1)
-    diagnosis = found.diagnosis
+    diagnosis = diagnosis_of(found)
     assert diagnosis.findings == ()
     nearest = diagnosis.tests[0]
     assert nearest.p == min(test.p for test in diagnosis.tests) > 0.05
@@ -86,7 +87,7 @@ def test_a_diagnosis_of_noise_says_so_and_what_came_nearest():
 
 def test_the_size_is_what_the_effect_moves_the_points_by():
     found = calibrated("sag", 1, 1)
-    (finding,) = found.diagnosis.findings
+    (finding,) = diagnosis_of(found).findings
     left = found.after.rms_length
     # noise is 3 numbers a point, less what 25 of 180 parameters took up
     noise = NOISE * np.sqrt(3.0 * (1.0 - 25 / 180))
@@ -97,8 +98,9 @@ def test_the_size_is_what_the_effect_moves_the_points_by():
 
 def test_a_loose_reflector_has_the_size_of_its_own_residuals():
     found = calibrated("loose", 1)
+    assert found.residuals is not None
     e = found.residuals.after[1::3]
-    first = found.diagnosis.findings[0]
+    first = diagnosis_of(found).findings[0]
     assert first.size == pytest.approx(np.sqrt(np.mean(np.sum(e**2, axis=1))), rel=1e-9)
 
 
@@ -120,11 +122,13 @@ def test_chances_are_those_of_nested_fits_times_the_number_of_tests():
     freedom = 3 * ROWS - 25 - 1
     F = (before - after) / (after / freedom)
     chance_alone = f_survival(F, 1, freedom)
-    (elbow,) = (t for t in found.diagnosis.tests if t.what.startswith("gravity lever of joint 3"))
+    (elbow,) = (
+        t for t in diagnosis_of(found).tests if t.what.startswith("gravity lever of joint 3")
+    )
     assert elbow.p < 1.0
     # the fits are linear to a hundredth of F, which a chance falls with as e^(-F / 2) does
     assert np.log(elbow.p / (15 * chance_alone)) == pytest.approx(0.0, abs=0.01 * F)
-    assert len(found.diagnosis.tests) == 15
+    assert len(diagnosis_of(found).tests) == 15
 
 
 def test_a_fitted_term_is_not_found_again():
@@ -132,15 +136,15 @@ def test_a_fitted_term_is_not_found_again():
     kinds = ("screws", "home", "compliance")
     measured = pk.calibration.Points(p, POINTS[0])
     found = pk.calibrate(ARM, q, measured, parameters=kinds, **OPTIONS)
-    assert found.diagnosis.findings == ()
-    assert not [test for test in found.diagnosis.tests if test.kind == "gravity"]
+    assert diagnosis_of(found).findings == ()
+    assert not [test for test in diagnosis_of(found).tests if test.kind == "gravity"]
 
 
 def test_exact_data_leave_nothing_to_be_tested():
     q = ARM.random(0, 40)
     found = pk.calibrate(ARM, q, ARM.fk(q), folds=0)
-    assert found.diagnosis.tests == ()
-    assert str(found.diagnosis) == "diagnosis: nothing is left to be tested"
+    assert diagnosis_of(found).tests == ()
+    assert str(diagnosis_of(found)) == "diagnosis: nothing is left to be tested"
 
 
 def test_a_set_that_stands_elsewhere_is_named():
@@ -153,11 +157,11 @@ def test_a_set_that_stands_elsewhere_is_named():
     order = np.tile([0, 40], 40) + np.repeat(np.arange(40), 2)
     time = np.argsort(order).astype(float)  # measured in turn: no drift
     found = pk.calibrate(ARM, q, sets, conditions={"time": time}, **OPTIONS)
-    assert {test.whose for test in found.diagnosis.tests if test.kind == "set"} == {
+    assert {test.whose for test in diagnosis_of(found).tests if test.kind == "set"} == {
         "measurement set 0 (Points)",
         "measurement set 1 (Points)",
     }
-    first = found.diagnosis.findings[0]
+    first = diagnosis_of(found).findings[0]
     assert first.verdict.partition(" (")[0] in ("measurement set 0", "measurement set 1")
     assert first.verdict.endswith(" stands elsewhere than the others")
 
@@ -166,7 +170,7 @@ def test_a_loose_reflector_does_not_hide_what_the_others_show():
     q, p = made("sag", 1)
     p[:, 1] += np.random.default_rng(0).normal(scale=2e-3, size=(ROWS, 3))
     found = pk.calibrate(ARM, q, pk.calibration.Points(p, POINTS), **OPTIONS)
-    verdicts = [finding.verdict for finding in found.diagnosis.findings]
+    verdicts = [finding.verdict for finding in diagnosis_of(found).findings]
     assert verdicts[:2] == ["reflector 2 is loose", f"{LIFT} sags"]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.solve.calibration.diagnostics.effects.planted import calibrated
+from tests.solve.calibration.diagnostics.effects.planted import calibrated, diagnosis_of
 
 FITS = 300
 NAMED = [
@@ -18,7 +18,7 @@ NAMED = [
 @pytest.mark.parametrize("count", [1, 3])
 def test_false_alarms_are_no_more_than_their_level(count):
     alarms = sum(
-        bool(calibrated.__wrapped__("nothing", seed, count).diagnosis.findings)
+        bool(diagnosis_of(calibrated.__wrapped__("nothing", seed, count)).findings)
         for seed in range(1000, 1000 + FITS)
     )
     # 5 % of 300 are 15; more than 26 of them come once in 500 times
@@ -29,6 +29,6 @@ def test_false_alarms_are_no_more_than_their_level(count):
 def test_what_was_planted_is_named_first_19_times_in_20(planted, count, verdict):
     named = 0
     for seed in range(1000, 1060):
-        findings = calibrated.__wrapped__(planted, seed, count).diagnosis.findings
+        findings = diagnosis_of(calibrated.__wrapped__(planted, seed, count)).findings
         named += bool(findings) and findings[0].verdict == verdict
     assert named >= 57

@@ -7,7 +7,13 @@ import numpy as np
 import poekin as pk
 from poekin.solve.calibration.fit.losses import OUTLIER, chi_square
 from poekin.solve.calibration.terms.gravity import levers, wrist_in_tip
-from tests.solve.calibration.diagnostics.effects.planted import ARM, NOISE, POINTS, made
+from tests.solve.calibration.diagnostics.effects.planted import (
+    ARM,
+    NOISE,
+    POINTS,
+    diagnosis_of,
+    made,
+)
 
 OPTIONS = {"folds": 0, "on_rank_deficiency": "fix"}
 UPRIGHT = np.arange(80) % 8 > 0
@@ -44,7 +50,7 @@ def test_outliers_that_an_effect_explains_are_none_and_others_stay():
     raw = raw_outliers(found)
     assert set(raw) > {0}
     assert not UPRIGHT[raw].any()
-    assert found.diagnosis.findings[0].verdict == "joint 2 (shoulder_lift_joint) sags"
+    assert diagnosis_of(found).findings[0].verdict == "joint 2 (shoulder_lift_joint) sags"
     assert [(o.set, o.index, o.row) for o in found.outliers] == [(0, 0, 0)]
 
 
