@@ -69,7 +69,7 @@ def test_a_plain_frame_is_open_at_the_top_and_on_the_right():
 def test_without_matplotlib_the_extra_and_the_purpose_are_said(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     message = "a test needs the package matplotlib: pip install 'poekin[report]'"
-    for call in (svg.new_figure, lambda *size: svg.svg(*size, draw=None)):
+    for call in (svg.new_figure, lambda *size: svg.svg(*size, draw=pytest.fail)):
         with pytest.raises(MissingExtra) as caught:
             call(2, 1, "a test")
         assert str(caught.value) == message

@@ -114,7 +114,7 @@ def test_the_numbers_in_the_help_are_those_that_are_taken():
     assert f"default: {min(examples)} to {max(examples)}, each law its own" in help_of(
         conform, "examples"
     )
-    tiles = [Cells((0.0,) * 3, 1.0, (1, 1, 1), side).count for side in (1, 4)]
+    tiles = [Cells((0.0, 0.0, 0.0), 1.0, (1, 1, 1), side).count for side in (1, 4)]
     assert help_of(reach, "side") == (
         f"Tell {tiles[0]} SIDE² directions of the tool's z axis apart (4: {tiles[1]} of them)."
     )

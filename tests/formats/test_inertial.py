@@ -84,11 +84,13 @@ def test_gravity_torques_are_pinocchio_s(name):
     model.gravity.linear = g = np.array([0.3, -0.4, -STANDARD_GRAVITY])
     q = np.random.default_rng(3).uniform(-1, 1, (4, chain.dof))
     conditions = at_rest(q, {})._replace(gravity=np.tile(g, (4, 1)))
-    found = np.stack(torques(chain, of_rows(q, conditions), chain.masses), axis=1)
+    masses = chain.masses
+    assert masses is not None
+    found = np.stack(torques(chain, of_rows(q, conditions), masses), axis=1)
     joints = [model.joints[model.getJointId(joint)] for joint in chain.q_names]
     # both compute: 24 u a joint (the formula's own bound), and 8 u for each origin read from the file
-    far = np.linalg.norm(chain.masses[:, 1:], axis=1).max() + 2 * np.abs(chain.screws[:, 3:]).sum()
-    size = np.linalg.norm(g) * chain.masses[:, 0].sum() * far
+    far = np.linalg.norm(masses[:, 1:], axis=1).max() + 2 * np.abs(chain.screws[:, 3:]).sum()
+    size = np.linalg.norm(g) * masses[:, 0].sum() * far
     bound = (2 * 24 * (chain.dof + 1) + 8 * model.nframes) * U * size
     for row, torque in zip(q, found, strict=True):
         configuration = pinocchio.neutral(model)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from poekin.formats.emit.sweep.cuda import Measure
 from poekin.sweep import Cells, Grid, Random, Sweep, run
 from tests.sweep.arms import measured
 
@@ -12,16 +15,14 @@ from ..emitted import arm
 # no border where a grid has whole rows of points, at y = 0 say
 CELLS = Cells((-1.03, -1.02, -0.61), 0.2, (10, 10, 10), 1)
 CUBES = Cells((-1.03, -1.02, -0.61), 0.2, (10, 10, 10))
-CASES = {
-    f"{name}_{kind}": (name, kind, measure)
-    for name, kind, measure in (
-        ("panda", "random", "manipulability"),
-        ("panda", "grid", "reach"),
-        ("mixed", "random", "reach"),
-        ("coupled", "random", "manipulability"),
-        ("one slide", "grid", "reach"),
-    )
-}
+_ROWS: list[tuple[str, str, Measure]] = [
+    ("panda", "random", "manipulability"),
+    ("panda", "grid", "reach"),
+    ("mixed", "random", "reach"),
+    ("coupled", "random", "manipulability"),
+    ("one slide", "grid", "reach"),
+]
+CASES = {f"{row[0]}_{row[1]}": row for row in _ROWS}
 
 
 def case(key: str) -> Sweep:
@@ -41,7 +42,7 @@ def arguments(sweep: Sweep) -> tuple:
     return samples, sweep.samples.bounds, cells, sweep.cells.place()
 
 
-def check(sweep: Sweep, counts, best=None, attained=None, rtol=1e-9) -> None:
+def check(sweep: Sweep, counts, best: Any = None, attained: Any = None, rtol=1e-9) -> None:
     """Counts of a map: no sample of these is within rounding, 1e-14 m, of a border but by a chance of
     some 1e-9.
     """

@@ -25,7 +25,7 @@ def by_jax(tmp_path_factory):
     folder = tmp_path_factory.mktemp("jax")
     for key in CASES:
         sweep = case(key)
-        (folder / f"{key}.py").write_text(emit.jax(sweep.chain, "body", measure=sweep.measure))
+        (folder / f"{key}.py").write_text(emit.jax(sweep.chain, "body", measure=CASES[key][2]))
         samples, bounds, cells, place = arguments(sweep)
         given = {"samples": samples, "bounds": bounds.tolist(), "cells": cells}
         given |= {"place": place.tolist(), "count": sweep.samples.count, "precision": "float64"}

@@ -11,6 +11,8 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError
 from poekin.formats import emit
+from poekin.formats.emit.sweep.cuda import Measure
+from poekin.model.kinematics.pose_jacobian import AnyFrame
 from poekin.sweep import Cells, Grid, Random, Sobol, Sweep, run
 from tests.sweep.arms import measured
 
@@ -135,7 +137,8 @@ def test_in_single_precision_samples_near_a_border_alone_fall_elsewhere(tmp_path
 
 def test_its_comment_names_the_arguments_of_the_kernels_that_it_has():
     chain = arm("one slide")
-    for measure, best in (("reach", ""), ("manipulability", ", best")):
+    kept: dict[Measure, str] = {"reach": "", "manipulability": ", best"}
+    for measure, best in kept.items():
         text = emit.cuda(chain, "body", name="a", measure=measure)
         assert (
             f"a_sweep(first, last, samples, bounds, cells, place, counts, outside{best}):" in text
@@ -143,7 +146,8 @@ def test_its_comment_names_the_arguments_of_the_kernels_that_it_has():
         assert ("a_attained(" in text.partition("*/")[0]) == bool(best)
         assert "first ... last - 1 of a map" in text
         assert "and to outside[0]." in text
-    for frame, called in (("body", "body"), (0, "joint0")):
+    frames: dict[AnyFrame, str] = {"body": "body", 0: "joint0"}
+    for frame, called in frames.items():
         assert f"a_fk_jacobian_{called}_batch(count, q, T, J)" in emit.cuda(chain, frame, name="a")
     single = emit.cuda(chain, "body", precision="float32")
     assert "random numbers are whole numbers of 64 bits" in single

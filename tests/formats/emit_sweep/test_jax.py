@@ -24,7 +24,7 @@ ROUNDOFF = {"float64": 2.0**-53, "float32": 2.0**-24}
 @pytest.mark.parametrize("key", CASES)
 def test_by_numpy_the_map_is_that_of_the_sweep(key):
     sweep = case(key)
-    functions = by_numpy(emit.jax(sweep.chain, "hybrid", measure=sweep.measure))
+    functions = by_numpy(emit.jax(sweep.chain, "hybrid", measure=CASES[key][2]))
     room = sweep.cells.count + 1
     state = [np.zeros(room, np.int64).view(Updated)]
     if sweep.is_measured:

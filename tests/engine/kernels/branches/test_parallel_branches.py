@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import cast
 
 import numpy as np
 import pytest
@@ -74,9 +75,10 @@ def test_joints_are_lost_where_the_determinant_is_zero_and_nowhere_else(joint):
     pairs = [(a, b) for a, b in pairwise(angles) if of[a] * of[b] < 0]
     assert pairs
     for pair in pairs:
-        root = brentq(
+        found = brentq(
             lambda x: determinant(np.where(np.arange(6) == joint, x, Q)), *pair, xtol=1e-13
         )
+        root = cast(float, found)  # scipy's text has no types
         for off, expected in ((0.0, True), (1e-3, False), (-1e-3, False)):
             assert lost(np.where(np.arange(6) == joint, root + off, Q)) is expected
 

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from poekin.engine.kernels.sweep import sweep_kernel as kernel
 from poekin.engine.kernels.sweep.tiles import OUTSIDE, cell_of
 
+Ends = tuple[int, int]
 COUNT, CELLS = 40, 5
 SEEDS = st.integers(0, 2**32 - 1)
 RANGES = st.tuples(st.integers(0, COUNT), st.integers(0, COUNT))
@@ -24,7 +25,7 @@ def drawn(seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @given(SEEDS, RANGES)
-def test_samples_of_the_range_are_counted_each_in_its_cell_and_those_in_none(seed, ends):
+def test_samples_of_the_range_are_counted_each_in_its_cell_and_those_in_none(seed, ends: Ends):
     _, found = drawn(seed)
     counts = np.arange(CELLS)
     outside = kernel._count(found, *ends, counts)
@@ -35,22 +36,24 @@ def test_samples_of_the_range_are_counted_each_in_its_cell_and_those_in_none(see
 
 
 @given(SEEDS, RANGES, st.sampled_from([1.0, -1.0]))
-def test_each_cell_keeps_the_first_sample_of_its_largest_measure(seed, ends, sign):
+def test_each_cell_counts_and_keeps_the_first_sample_of_its_largest_measure(seed, ends: Ends, sign):
     values, found = drawn(seed)
     best = np.full(CELLS, -math.inf)
     attained = np.full(CELLS, -1)
-    kernel._keep_best(sign, values, found, *ends, 1000, best, attained)
+    counts = np.arange(CELLS)
+    outside = kernel._keep_best(sign, values, found, *ends, 1000, counts, best, attained)
     samples = range(*ends)
+    assert outside == sum(found[k] == OUTSIDE for k in samples)
     for cell in range(CELLS):
         own = [k for k in samples if found[k] == cell]
         largest = max((sign * values[k] for k in own), default=-math.inf)
         first = min((1000 + k for k in own if sign * values[k] == largest), default=-1)
-        assert (best[cell], attained[cell]) == (largest, first)
+        assert (counts[cell] - cell, best[cell], attained[cell]) == (len(own), largest, first)
 
 
 @given(SEEDS, RANGES, st.integers(1, 6), st.sampled_from([1.0, -1.0]))
 def test_the_largest_of_all_stand_in_descending_order_the_first_of_equal_ones_first(
-    seed, ends, size, sign
+    seed, ends: Ends, size, sign
 ):
     values, _ = drawn(seed)
     best = np.full(size, -math.inf)
@@ -63,7 +66,7 @@ def test_the_largest_of_all_stand_in_descending_order_the_first_of_equal_ones_fi
 
 
 @given(SEEDS, RANGES)
-def test_sums_are_whole_numbers_of_units_in_two_parts(seed, ends):
+def test_sums_are_whole_numbers_of_units_in_two_parts(seed, ends: Ends):
     values, found = drawn(seed)
     values = values * np.pi
     sums = np.zeros(CELLS, np.int64)

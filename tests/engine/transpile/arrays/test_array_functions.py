@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -76,7 +77,7 @@ def of_arrays(function, *given, fixed=(), replaced=None):
     """What the text of a function gives."""
     functions = ArrayFunctions(replaced or {})
     name = functions.add(function, fixed)
-    namespace = {"xp": np}
+    namespace: dict[str, Any] = {"xp": np}
     exec(functions.text, namespace)
     with np.errstate(all="ignore"):
         return namespace[name](*given)

@@ -97,9 +97,9 @@ def straight(slides, directions):
         if slides[i]:
             h[i + 1] = directions[i]
     P = np.array([Y, 2 * X, X, Y, X, Z])
-    rows = [tuple(map(tuple, a.tolist())) for a in (h, P)]
+    axes, offsets = (tuple(map(tuple, a.tolist())) for a in (h, P))
     R = tuple(np.eye(3).ravel().tolist())
-    return *rows, tuple(Z), tuple(X), R, tuple(P[1:].sum(0).tolist())
+    return axes, offsets, tuple(Z), tuple(X), R, tuple(P[1:].sum(0).tolist())
 
 
 @pytest.mark.parametrize("slides", ORDERS.values(), ids=ORDERS)
