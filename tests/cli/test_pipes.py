@@ -30,6 +30,7 @@ WORDS = {
     "ik": (*TIP, "--format", "12", "--input", "POSES"),
     "follow": (*TIP, "--format", "12", "--input", "POSES"),
     "calibrate": ("READINGS", *TIP, "--folds", "0", "--on-rank-deficiency", "fix"),
+    "choose-poses": ("6", *TIP, "--candidates", "20", "--point=0.1,0,0"),
     "apply": ("CALIBRATION", "-o", "OUT.urdf"),
     "validate": ("--samples", "2"),
     "urdf": (),
@@ -89,7 +90,7 @@ def words(crane, tmp_path, poekin):
 
 
 def test_every_command_that_takes_a_model_is_tried():
-    named = {module.__name__.rpartition(".")[2] for module in commands.COMMANDS}
+    named = {m.__name__.rpartition(".")[2].replace("_", "-") for m in commands.COMMANDS}
     assert named - NO_MODEL <= set(WORDS)
     for module in commands.COMMANDS:
         if module.__name__.rpartition(".")[2] in NO_MODEL:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.engine.straight_line import interpret
-from poekin.errors import InputError, UnknownName
+from poekin.errors import InputError
 from poekin.formats import emit
 from poekin.testing.strategies import chain_strategies
 
@@ -201,7 +201,7 @@ def test_a_hostile_name_changes_no_statement(name):
 
 def test_what_cannot_be_emitted_is_refused():
     with pytest.raises(
-        UnknownName,
+        InputError,
         match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, got 'world' ",
     ):
         emit.python(arm("panda"), "world")  # pyright: ignore[reportArgumentType]

@@ -285,7 +285,7 @@ def test_a_frame_that_does_not_exist_is_refused(frame):
     a, q = arm(), np.zeros(3)
     for call in (a.jacobian, a.fk_jacobian, lambda q, f: a.velocity(q, q, f)):
         with pytest.raises(
-            (InputError, UnknownName),
+            InputError,
             match="expected 'space', 'body', 'hybrid' or the index of a joint",
         ):
             call(q, frame)
@@ -296,7 +296,7 @@ def test_a_frame_that_does_not_exist_is_refused(frame):
     [("world", "space"), ("LOCAL", "body"), ("local_world_aligned", "hybrid"), ("spatial", None)],
 )
 def test_a_frame_as_pinocchio_calls_it_is_refused_with_its_name_here(theirs, own):
-    with pytest.raises(UnknownName) as refused:
+    with pytest.raises(InputError) as refused:
         arm().jacobian(np.zeros(3), theirs)
     hint = f" (Pinocchio's {theirs.upper()} is {own!r})" if own else ""
     assert str(refused.value).endswith(f"got {theirs!r}{hint}")

@@ -70,7 +70,7 @@ class SelfCollision(Result):
     >>> import poekin as pk
     >>> robot = pk.load("ur5e")
     >>> arm = robot.chain(tip="tool0")
-    >>> wrist = [("wrist_3_link", (0, 0, 0.1), 0.1), ("upper_arm_link", (-0.2, 0, 0.14), 0.08)]
+    >>> wrist = [("wrist_3_link", (0, 0, 0.1), 0.2), ("upper_arm_link", (-0.2, 0, 0.14), 0.08)]
     >>> mask = pk.sweep.SelfCollision.of_spheres(robot, arm, wrist)
     >>> bool(mask.touches(arm, [0, 0, 0, 0, 0, 0])), bool(mask.touches(arm, [0, 0, 3.0, 0, 0, 0]))
     (False, True)

@@ -201,5 +201,9 @@ def test_measurements_of_a_camera_and_unknown_columns_are_refused(refused, words
     assert said.startswith(
         "poekin: error: --measured: expected poses, points or distances, got EyeToHand"
     )
-    path.write_text("turn,slide,x,y,z,time\n")
-    assert "--ignore time passes it over" in refused(*words, "--measured", path)
+    path.write_text("turn,slide,x,y,z,humidity\n")
+    assert "--ignore humidity passes it over" in refused(*words, "--measured", path)
+    path.write_text("turn,slide,x,y,z\n")
+    assert "Points: expected one or more as an example, got none" in refused(
+        *words, "--measured", path
+    )

@@ -263,7 +263,7 @@ MISTAKES = {
     "name": (lambda arm: arm.fk({"elbow": 1.0}), UnknownName, "no coordinate 'elbow'"),
     "frame": (
         lambda arm: arm.jacobian(Q[0], "Body"),
-        UnknownName,
+        InputError,
         "expected 'space', 'body', 'hybrid' or the index",
     ),
     "joint": (lambda arm: arm.jacobian(Q[0], 7), InputError, "0 to 6, got 7"),

@@ -204,6 +204,11 @@ def _examples(measurements: Any) -> list[Measurement]:
             "measurements: expected 'poses', 'points', or an example of Poses, Points, Distances, "
             f"EyeInHand or EyeToHand, or a list of them, got {safe_repr(measurements)}"
         )
+    for s in sets:
+        if not len(s):
+            raise InputError(
+                f"measurements: {s.what}: expected one or more as an example, got none"
+            )
     return [s.with_rows(None) for s in sets]
 
 
