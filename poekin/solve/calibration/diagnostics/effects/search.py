@@ -110,7 +110,7 @@ class EffectSearch:
             self._firm[begin + axis : part.stop : width] = False
 
     def _by_effects(self) -> Array:
-        """SetNumbers (M,) of the errors that the effects explain, fitted together with all else."""
+        """Part (M,) of the errors that the effects explain, fitted together with all else."""
         z = coefficients(self._weighted(self._fitted), self._weighted(self._errors))
         z[: self._fit.jacobian.shape[1]] = 0.0
         return self._fitted @ z
