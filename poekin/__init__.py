@@ -31,6 +31,7 @@ from .model.joint import Joint, Mimic, SafetyController
 from .model.methods.peer_names import OF_PACKAGE, no_attribute
 from .model.robot import Robot
 from .model.tree.link_masses import LinkMass
+from .progress_line import ProgressLine
 from .solve import calibration, motion
 from .solve.calibration import calibrate, choose_poses
 from .solve.ik.ik import ik
@@ -47,6 +48,7 @@ __all__ = [
     "Mimic",
     "PoekinError",
     "PoekinWarning",
+    "ProgressLine",
     "Robot",
     "SafetyController",
     "axes",

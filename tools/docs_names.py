@@ -19,8 +19,7 @@ from .docs_render import rest
 PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "models": ("Models: read, make, write", (
         "load", "from_text", "xacro", "from_object", "to_urdf", "relinked", "Robot", "Joint", "Mimic",
-        "SafetyController",
-        "LinkMass",
+        "SafetyController", "LinkMass",
     )),
     "chain": ("Chain: poses, Jacobians, derivatives", ("Chain",)),
     "screw": ("screw: the axes of joints", ("screw",)),
@@ -33,7 +32,7 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "dexterity": ("Manipulability and singularities", ("manipulability", "manipulability_gradient", "singularity")),
     "solve": ("Inverse kinematics", ("ik", "ik_all", "ik_structure", "follow")),
     "motion": ("motion: paths and timing", ("motion",)),
-    "sweep": ("sweep: maps over many configurations", ("sweep",)),
+    "sweep": ("sweep: maps over many configurations", ("sweep", "ProgressLine")),
     "poses": ("poses: formats of controllers, ROS and spreadsheets", ("poses",)),
     "calibration": ("Calibration", ("calibrate", "choose_poses", "calibration")),
     "emit": ("emit: source code of an arm", ("emit",)),

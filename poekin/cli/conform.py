@@ -8,8 +8,9 @@ from typing import Annotated
 
 from typer import Argument, Exit, Option
 
+from ..progress_line import ProgressLine
 from .kinematics.arm import Json
-from .output import Progress, as_json, say
+from .output import as_json, say
 
 FINDINGS = 1
 
@@ -90,7 +91,7 @@ def command(
 
     if "" not in sys.path:
         sys.path.insert(0, "")
-    with Progress("laws") as progress:
+    with ProgressLine("laws") as progress:
         report = conform(
             subject,
             law or (),

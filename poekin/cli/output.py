@@ -1,10 +1,9 @@
-"""Output of the commands: plain text, tables, numbers, JSON, progress; names of files escaped."""
+"""Output of the commands: plain text, tables, numbers, JSON; names of files escaped."""
 
 from __future__ import annotations
 
 import json
 import sys
-import time
 from collections.abc import Iterable, Sequence
 from typing import Literal
 
@@ -16,13 +15,10 @@ from rich.text import Text
 
 from ..errors import escape_unprintable, quote
 from ..model.chain import Chain
+from ..progress_line import CLEAR_LINE
 from ..results import plain as plain_data
 
 LONGEST_PATH = 400
-PAUSE = 10.0
-"""Seconds of silence between two lines of progress where stderr is no terminal."""
-CLEAR_LINE = "\r\x1b[K"
-"""Code that clears the line of a terminal on which the cursor stands."""
 
 
 def plain(text: object) -> str:
@@ -99,49 +95,3 @@ def heading(robot: str, chain: Chain, **extra: object) -> dict[str, object]:
 def as_json(value: object) -> str:
     """JSON text of dicts, lists, arrays and numbers; what is no finite number is null."""
     return json.dumps(plain_data(value), allow_nan=False)
-
-
-class Progress:
-    """Progress of long work on stderr: a line rewritten on a terminal, else a line now and then.
-
-    Parameters: what (the work's name). Short work shows nothing. Use it as a context manager; call
-    it with (done, total, what is being done), total 0 where nobody knows it.
-    """
-
-    def __init__(self, what: str) -> None:
-        self.what = what
-        self.terminal = sys.stderr.isatty()
-        self.shown = False
-        self.last = time.monotonic()
-
-    def __call__(self, done: int, total: int, text: str = "") -> None:
-        """Say how far the work is, if it is time to say something."""
-        now = time.monotonic()
-        if now - self.last < self._pause():
-            return
-        self.last = now
-        self.shown = True
-        line = f"{self.what}: {done}"
-        if total:
-            line += f" of {total}"
-        if text:
-            line += f", {text}"
-        line = name(line)
-        if self.terminal:
-            print(f"{CLEAR_LINE}{line[:100]}", end="", file=sys.stderr, flush=True)
-        else:
-            print(line, file=sys.stderr)
-
-    def _pause(self) -> float:
-        if not self.terminal:
-            return PAUSE
-        if not self.shown:
-            return 0.5
-        return 0.1
-
-    def __enter__(self) -> Progress:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self.terminal and self.shown:
-            print(CLEAR_LINE, end="", file=sys.stderr, flush=True)

@@ -8,8 +8,9 @@ import typer
 
 from ..engine.warm import kernels
 from ..errors import FileError
+from ..progress_line import ProgressLine
 from .kinematics.arm import Json
-from .output import Progress, as_json, path_text, say
+from .output import as_json, path_text, say
 
 
 def command(json: Json = False) -> None:
@@ -25,7 +26,7 @@ def command(json: Json = False) -> None:
         )
     start = time.monotonic()
     found = kernels()
-    with Progress("compiling") as progress:
+    with ProgressLine("compiling") as progress:
         for done, (name, kernel) in enumerate(found.items()):
             progress(done, len(found), name)
             kernel.ready()

@@ -7,7 +7,8 @@ import math
 
 import pytest
 
-from poekin.cli import output, run
+from poekin import progress_line
+from poekin.cli import run
 
 URDF = """<robot name="crane">
 <link name="root"/><link name="a"/><link name="b"/><link name="hook"/><link name="lamp"/>
@@ -33,7 +34,7 @@ def poekin(capsys, monkeypatch):
     """Run a command line: (exit code, stdout, stderr); on stderr no word of progress, however slow
     the machine is.
     """
-    monkeypatch.setattr(output, "PAUSE", math.inf)
+    monkeypatch.setattr(progress_line, "PAUSE", math.inf)
 
     def call(*words):
         code = run([str(w) for w in words])

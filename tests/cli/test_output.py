@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from poekin.cli import output
+from tests.terminal import Terminal
 
 
 @pytest.mark.parametrize(
@@ -79,62 +80,6 @@ def test_json_has_null_for_what_is_no_finite_number_and_keeps_the_kinds_of_the_o
     assert json.loads(output.as_json(value)) == {
         "1": [[1.5, None], [None, -2.0]], "b": [True, 3, "x", None], "c": [{"d": None}],
     }  # fmt: skip
-
-
-class Terminal(io.StringIO):
-    seen = ""
-
-    def isatty(self) -> bool:
-        return True
-
-    def flush(self) -> None:
-        self.seen = self.getvalue()
-
-
-@pytest.fixture
-def clock(monkeypatch):
-    """A clock that stands until it is set."""
-    now = [100.0]
-    monkeypatch.setattr(output.time, "monotonic", lambda: now[0])
-    return now
-
-
-def test_progress_in_a_file_is_a_line_when_its_pause_is_over(clock, monkeypatch):
-    monkeypatch.setattr(sys, "stderr", io.StringIO())
-    with output.Progress("reading") as progress:
-        for time, done in ((109.9, 1), (110.0, 2), (119.9, 3), (120.1, 4)):
-            clock[0] = time
-            progress(done, 0 if done == 4 else 7, "x\n" if done == 2 else "")
-    assert sys.stderr.getvalue() == "reading: 2 of 7, x\\n\nreading: 4\n"  # type: ignore[attr-defined]
-
-
-def test_progress_on_a_terminal_is_one_line_that_goes_away(clock, monkeypatch):
-    monkeypatch.setattr(sys, "stderr", Terminal())
-    with output.Progress("reading") as progress:
-        for time, done in ((100.4, 1), (100.5, 2), (100.59, 3), (100.61, 4)):
-            clock[0] = time
-            progress(done, 7)
-            assert sys.stderr.seen == sys.stderr.getvalue()  # type: ignore[attr-defined]  a line without an end
-    assert sys.stderr.seen == sys.stderr.getvalue()  # type: ignore[attr-defined]
-    clear = "\r\x1b[K"
-    assert sys.stderr.getvalue() == f"{clear}reading: 2 of 7{clear}reading: 4 of 7{clear}"  # type: ignore[attr-defined]
-
-
-def test_short_work_shows_nothing(clock, monkeypatch):
-    for stream in (Terminal(), io.StringIO()):
-        monkeypatch.setattr(sys, "stderr", stream)
-        with output.Progress("reading") as progress:
-            progress(1, 2)
-        assert stream.getvalue() == ""
-
-
-def test_a_line_of_progress_is_cut_on_a_terminal_alone(clock, monkeypatch):
-    for stream, length in ((Terminal(), 100), (io.StringIO(), 209)):
-        monkeypatch.setattr(sys, "stderr", stream)
-        progress = output.Progress("x" * 200)
-        clock[0] += 20
-        progress(1, 10)
-        assert len(stream.getvalue().removeprefix("\r\x1b[K").rstrip("\n")) == length
 
 
 def test_a_complaint_takes_the_line_of_progress_on_a_terminal(monkeypatch):

@@ -233,18 +233,3 @@ def test_ctrl_c_in_a_process_of_its_own(tmp_path, crane):
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=60)
     assert (process.returncode, out, err) == (130, b"", b"")
-
-
-def test_long_work_says_now_and_then_how_far_it_is(monkeypatch, capsys):
-    from poekin.cli import output
-
-    now = [100.0]
-    monkeypatch.setattr(output.time, "monotonic", lambda: now[0])
-    with output.Progress("read\nings") as progress:
-        for done in range(26):
-            now[0] = 100.0 + done
-            progress(done, 30 if done < 20 else 0, "q.csv" * (done < 20))
-    assert capsys.readouterr().err.splitlines() == [
-        r"read\nings: 10 of 30, q.csv",
-        r"read\nings: 20",
-    ]

@@ -15,6 +15,7 @@ from ...errors import InputError, UnknownName, join_names, quote
 from ...formats.dh.table import CONVENTIONS
 from ...model.chain import Chain
 from ...model.robot import Robot
+from ...progress_line import ProgressLine
 from ...solve.calibration.calibrate import calibrate
 from ...solve.calibration.calibration import Calibration
 from ...solve.calibration.exact.from_fk_result import FromFk
@@ -28,7 +29,7 @@ from ..array_files import check_apart, check_place
 from ..formats import draw as pages
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
-from ..output import Progress, as_json, complain, name, say
+from ..output import as_json, complain, name, say
 from . import exact as exact_pairs
 from . import measured
 from .measured import Measured, MeasurementOptions
@@ -293,7 +294,7 @@ def _complain_of_unread(found: Calibration, options: dict[str, Any]) -> None:
 
 def _calibrated(chain: Chain, given: Measured, options: dict[str, Any]) -> Calibration:
     """The calibration from measurements, with progress."""
-    with Progress("calibrating") as progress:
+    with ProgressLine("calibrating") as progress:
         return calibrate(
             chain,
             given.q,

@@ -14,6 +14,7 @@ from ...errors import InputError, UnknownName
 from ...formats.text import csv_rows
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...progress_line import ProgressLine
 from ...solve.calibration.design.choice import Choice
 from ...solve.calibration.design.choose import choose_poses
 from ...solve.calibration.design.exchange import CRITERIA, Criterion
@@ -24,7 +25,7 @@ from .. import array_files
 from ..formats.units import SaidUnits
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
-from ..output import Progress, as_json, complain, heading, path_text, say
+from ..output import as_json, complain, heading, path_text, say
 from . import measured as measured_files
 from . import places
 from .calibrate import (
@@ -123,7 +124,7 @@ def command(
     allowed = [places.box(box, "--box", units, of_tool), places.cone(cone, units, of_tool)]
     try:
         before, sets = _measurements(chain, measured, said)
-        with Progress("choosing") as progress:
+        with ProgressLine("choosing") as progress:
             found = choose_poses(
                 chain,
                 n,
@@ -152,7 +153,7 @@ def _candidates(text: str, chain: Chain, units: SaidUnits) -> Array | int:
     """Number of candidates to draw, or the candidates (K, m) in a file."""
     if text.isdecimal():
         return int(text)
-    with Progress(f"reading {array_files.called(text)}") as progress:
+    with ProgressLine(f"reading {array_files.called(text)}") as progress:
         rows = array_files.read_configurations(text, units.columns(chain), progress)
     return units.to_si(rows, chain)
 

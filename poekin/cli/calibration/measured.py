@@ -11,13 +11,14 @@ from ...checks import positive
 from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...progress_line import ProgressLine
 from ...solve.calibration.measurements import data
 from ...solve.calibration.measurements.header import SI, Convention
 from ...solve.calibration.measurements.measurement import Measurement
 from ..array_files import to_open
 from ..kinematics import poses
 from ..model import STANDARD_INPUT, STDIN
-from ..output import Progress, path_text
+from ..output import path_text
 
 
 class MeasurementOptions(NamedTuple):
@@ -63,7 +64,7 @@ def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Mea
     tables = []
     for path, kind in zip(paths, kinds, strict=True):
         place = STANDARD_INPUT if path in STDIN else ""
-        with Progress(f"reading {place or path_text(path)}") as progress:
+        with ProgressLine(f"reading {place or path_text(path)}") as progress:
             tables.append(
                 data.read_table(
                     to_open(path, "measurements"),

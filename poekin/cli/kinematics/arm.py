@@ -15,10 +15,11 @@ from ...errors import InputError, quote
 from ...formats.text import csv_rows
 from ...model.chain import Chain
 from ...model.robot import Robot
+from ...progress_line import ProgressLine
 from .. import array_files
 from ..formats.units import SI, SaidUnits, beyond_limits
 from ..model import model
-from ..output import Progress, as_json, complain, heading, matrix, name, number, path_text, say
+from ..output import as_json, complain, heading, matrix, name, number, path_text, say
 from . import poses
 
 FILE_HELP = (
@@ -99,7 +100,7 @@ def take(
         raise InputError(
             f"either coordinates or --input expected, got both ({quote(words[0])} and {quote(given)})"
         )
-    with Progress(f"reading {array_files.called(given)}") as progress:
+    with ProgressLine(f"reading {array_files.called(given)}") as progress:
         columns = (units or SI).columns(chain)
         rows = array_files.read_configurations(given, columns, progress)
     return _in_si(ChainArguments(robot.name, chain, rows, False, model=robot), units)
@@ -125,7 +126,7 @@ def compute(
     q = arm.q
     count = len(q)
     results = np.empty((count, *shape))
-    with Progress("computing") as progress:
+    with ProgressLine("computing") as progress:
         for start in range(0, count, ROWS_AT_ONCE):
             progress(start, count)
             some = slice(start, start + ROWS_AT_ONCE)
@@ -155,7 +156,7 @@ class Results:
         """CSV with a line for each matrix."""
         columns = self.columns or [""]
         header = [f"{row} {column}".strip() for row in self.rows for column in columns]
-        with Progress("writing") as progress:
+        with ProgressLine("writing") as progress:
             # The width is said, not inferred: -1 means nothing where there is no configuration.
             flat = self.values.reshape(len(self.values), math.prod(self.values.shape[1:]))
             return csv_rows.text(header, flat, progress)

@@ -13,6 +13,7 @@ from ...errors import InputError
 from ...formats.text import csv_rows
 from ...formats.text.atomic_write import write_whole
 from ...model.chain import Chain
+from ...progress_line import ProgressLine
 from ...solve.ik.task import TaskName
 from ...solve.path.follow import follow
 from ...solve.path.path_result import PathResult
@@ -21,7 +22,7 @@ from .. import array_files
 from ..formats import draw as pages
 from ..formats.units import Deg, Mm, SaidUnits
 from ..model import model
-from ..output import Progress, as_json, complain, heading, path_text, say
+from ..output import as_json, complain, heading, path_text, say
 from . import fastest_files, poses
 from .arm import Base, File, Json, Tip
 
@@ -132,7 +133,7 @@ def command(
     limit_v = poses.for_each(speed, chain, "--speed", units)
     limit_a = poses.for_each(acceleration, chain, "--acceleration", units)
     timed = not fastest
-    with Progress("following") as progress:
+    with ProgressLine("following") as progress:
         path = follow(
             chain,
             T,

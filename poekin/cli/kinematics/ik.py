@@ -10,6 +10,7 @@ from typer import Exit, Option
 
 from ...formats.text import csv_rows
 from ...model.chain import Chain
+from ...progress_line import ProgressLine
 from ...solve.ik.ik import ik
 from ...solve.ik.solution import Solution
 from ...solve.ik.task import TaskName
@@ -18,7 +19,7 @@ from .. import array_files
 from ..formats import draw as pages
 from ..formats.units import Deg, Mm, SaidUnits
 from ..model import model
-from ..output import Progress, as_json, complain, heading, name, path_text, say
+from ..output import as_json, complain, heading, name, path_text, say
 from . import poses
 from .arm import Base, File, Json, Tip, show_coordinates
 
@@ -72,7 +73,7 @@ def command(
     chain = robot.chain(base=base, tip=tip)
     start = poses.coordinates(q0, chain, "--q0", units)
     near = poses.coordinates(nearest_to, chain, "--nearest-to", units)
-    with Progress("solving") as progress:
+    with ProgressLine("solving") as progress:
         found = ik(
             chain,
             T,

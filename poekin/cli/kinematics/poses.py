@@ -16,9 +16,10 @@ from ...formats.poses.read import pose_columns, read_file, read_text
 from ...formats.text.numbers import real
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...progress_line import ProgressLine
 from .. import array_files
 from ..formats.units import SI, SaidUnits
-from ..output import Progress, name
+from ..output import name
 
 FORMAT_HELP = (
     "The numbers of a pose, never guessed: matrix (12 or 16, row by row: T00 T01 T02 T03 T10 ..., m), quat (x y z in m"
@@ -121,14 +122,14 @@ def _read_file(given: str, chosen: PoseLayout, units: SaidUnits) -> Array:
     if len(chosen.columns) == 16:
         tail = (4, 4)
     columns = pose_columns(chosen)
-    with Progress(f"reading {place}") as progress:
+    with ProgressLine(f"reading {place}") as progress:
         rows, _ = array_files.read_rows(given, columns, progress, tail=tail)
     return pose_rows.to_poses(rows, chosen, lambda i: f"{place}, row {i}")
 
 
 def _read_text_file(given: str, chosen: PoseLayout, units: SaidUnits, place: str) -> Array:
     file = array_files.to_open(given)
-    with Progress(f"reading {place}") as progress:
+    with ProgressLine(f"reading {place}") as progress:
         return read_file(file, chosen, units.said(), place, progress)
 
 

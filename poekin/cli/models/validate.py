@@ -10,9 +10,10 @@ from ...analysis.validate import BAR, Validation, validate
 from ...errors import InputError, MissingExtra, PoekinError
 from ...formats.erd import example_robots
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
+from ...progress_line import ProgressLine
 from ..kinematics.arm import Json, Seed
 from ..model import model
-from ..output import Progress, as_json, complain, name, number, say, table
+from ..output import as_json, complain, name, number, say, table
 
 FAILED = 1
 ERROR = 2
@@ -71,7 +72,7 @@ def _validate_each(
     """Results of the models, and the messages for those that could not be validated."""
     results: list[Validation] = []
     errors: dict[str, str] = {}
-    with Progress("validating") as progress:
+    with ProgressLine("validating") as progress:
         for done, file in enumerate(names):
 
             def tell(chain: int, chains: int, tip: str, done: int = done, file: str = file) -> None:

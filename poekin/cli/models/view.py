@@ -13,6 +13,7 @@ from ...analysis.compare.compare import compare
 from ...errors import InputError
 from ...model.chain import Chain
 from ...model.robot import Robot
+from ...progress_line import ProgressLine
 from ...solve.ik.ik import ik
 from ...solve.ik_all.ik_all import ik_all
 from ...solve.motion.csv_io import read_joints
@@ -28,7 +29,7 @@ from ..formats.units import Deg, Mm, SaidUnits
 from ..kinematics import poses
 from ..kinematics.arm import Base, File, Tip
 from ..model import model, models
-from ..output import Progress, path_text, say
+from ..output import path_text, say
 from .compare import chosen_chain
 
 MOST_COORDINATES = 6
@@ -146,7 +147,7 @@ def _path(given: str, chain: Chain, units: SaidUnits) -> PathResult:
     if given.lower().endswith(".csv") and not units.said():
         q, times = read_joints(given, chain)
     else:
-        with Progress("reading") as progress:
+        with ProgressLine("reading") as progress:
             q = array_files.read_configurations(given, units.columns(chain), progress)
         q = units.to_si(q, chain)
     if not len(q):

@@ -7,11 +7,12 @@ from typing import Annotated
 
 from typer import Exit, Option
 
+from ...progress_line import ProgressLine
 from ...sweep.maps.histogram import histogram
 from ...sweep.masks.self_collision import SelfCollision
 from ..kinematics.arm import Base, File, Json, Seed, Tip
 from ..model import model
-from ..output import Progress, as_json, number, say, table
+from ..output import as_json, number, say, table
 from .options import (
     Measured,
     MeasureName,
@@ -54,7 +55,7 @@ def command(
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     mask = SelfCollision.of_robot(robot, chain) if self_collision else None
-    with executor(scheduler) as runs, Progress("sweep") as progress:
+    with executor(scheduler) as runs, ProgressLine("sweep") as progress:
         found = histogram(
             chain,
             measure_from(measure, chain, sigma_angle, sigma_length),

@@ -8,13 +8,14 @@ from typing import Annotated
 from typer import Exit, Option
 
 from ...errors import InputError
+from ...progress_line import ProgressLine
 from ...sweep.maps import map_files
 from ...sweep.maps.reach import reach
 from ...sweep.masks.self_collision import SelfCollision
 from .. import array_files
 from ..kinematics.arm import Base, File, Json, Seed, Tip
 from ..model import model
-from ..output import Progress, as_json, path_text, say
+from ..output import as_json, path_text, say
 from .options import (
     KeepName,
     Kept,
@@ -86,7 +87,7 @@ def command(
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     mask = SelfCollision.of_robot(robot, chain) if self_collision else None
-    with executor(scheduler) as runs, Progress("sweep") as progress:
+    with executor(scheduler) as runs, ProgressLine("sweep") as progress:
         found = reach(
             chain,
             resolution=resolution,

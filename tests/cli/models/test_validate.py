@@ -90,7 +90,7 @@ def test_the_table_and_the_lines_have_the_errors_and_notes_of_each_chain(capsys)
 
 def test_progress_says_which_chain_of_which_file_it_is_at(crane, poekin, monkeypatch):
     told = []
-    monkeypatch.setattr(command.Progress, "__call__", lambda _, *words: told.append(words))
+    monkeypatch.setattr(command.ProgressLine, "__call__", lambda _, *words: told.append(words))
     assert poekin("validate", crane, "panda", "--samples", 1)[0] == 0
     assert told[:2] == [
         (0, 2, f"{crane}: chain 0 of 2, hook"),
