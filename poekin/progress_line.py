@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 
-from .errors import escape_unprintable
+from .errors import InputError, escape_unprintable, safe_repr
 
 PAUSE = 10.0
 """Seconds of silence between two lines where a line cannot be written again."""
@@ -28,6 +28,11 @@ class ProgressLine:
     what : str
         Name of the work.
 
+    Raises
+    ------
+    InputError
+        If it is no text.
+
     Examples
     --------
     >>> import poekin as pk
@@ -37,6 +42,8 @@ class ProgressLine:
     """
 
     def __init__(self, what: str) -> None:
+        if not isinstance(what, str):
+            raise InputError(f"what: expected the name of the work, got {safe_repr(what)}")
         self.what = what
         # a cell of a notebook takes the carriage return, as a terminal does
         self.terminal = sys.stderr.isatty() or "ipykernel" in type(sys.stderr).__module__

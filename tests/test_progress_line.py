@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import io
 import sys
+from typing import Any
 
 import pytest
 
 import poekin as pk
 from poekin import progress_line
+from poekin.errors import InputError
 from tests.terminal import Terminal
 
 CLEAR = "\r\x1b[K"
@@ -74,6 +76,12 @@ def test_rate_and_time_left_are_by_what_was_done_since_the_first_call(run):
         "reading: 700 of 1000, 20 a second, 15 s left\n"
         "reading: 1000 of 1000, 18 a second, 0 s left\n"
     )
+
+
+def test_a_name_that_is_no_text_is_refused():
+    wrong: Any = 3
+    with pytest.raises(InputError, match="^what: expected the name of the work, got 3$"):
+        pk.ProgressLine(wrong)
 
 
 def test_nothing_done_has_no_rate(run):

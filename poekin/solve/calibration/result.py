@@ -79,8 +79,9 @@ class CalibrationData(Result):
 
     @property
     def diagnosis(self) -> ResidualDiagnosis | None:
-        """Effects that the residuals show; None of a calibration out of a file, which has no
-        measurements.
+        """Effects that the residuals show; None of a calibration out of a file.
+
+        Such a one has no measurements.
         """
         if self.evidence is None:
             return None
@@ -88,9 +89,10 @@ class CalibrationData(Result):
 
     @property
     def tool_and_base(self) -> tuple[FrameEstimate, ...]:
-        """Frames that a controller with the nominal arm is told: its base in the frame that was
-        measured in, the tool in its tip frame, with which it is nearest to the calibrated arm; and
-        the unknown frames. None of a calibration out of a file.
+        """Frames that a controller with the nominal arm is told; none of a calibration out of a file.
+
+        The base in the frame that was measured in and the tool in its tip frame, with which the
+        nominal arm is nearest to the calibrated one; and the unknown frames.
         """
         if self.evidence is None:
             return ()

@@ -189,14 +189,41 @@ class SelfCollision(Result):
         return found.reshape(batch)
 
     def check(self, chain: Chain) -> None:
-        """Refuses another arm. Raises: InputError."""
+        """Refuse another arm.
+
+        Parameters
+        ----------
+        chain : Chain
+            Arm of a sweep.
+
+        Raises
+        ------
+        InputError
+            If it is not of the joints that the mask is of.
+        """
         if chain.joint_names != self.joint_names:
             raise InputError(
                 f"mask: it is of an arm with the joints {join_names(self.joint_names)}, not of {chain!r}"
             )
 
     def program(self, chain: Chain) -> Program:
-        """Centres of hulls and spheres in the base frame, m. Raises: InputError of another arm."""
+        """Program of the centres of spheres, which the kernel of sweeps runs.
+
+        Parameters
+        ----------
+        chain : Chain
+            The arm.
+
+        Returns
+        -------
+        program : Program
+            Centres in the base frame, m: of each link, that of the sphere around all first.
+
+        Raises
+        ------
+        InputError
+            If it is another arm.
+        """
         from ...engine.straight_line.program import program
 
         self.check(chain)
@@ -208,7 +235,15 @@ class SelfCollision(Result):
         return program(graph, angles, outputs)
 
     def numbers(self) -> tuple[np.ndarray, Array]:
-        """Pairs of links and radii, as `engine.kernels.sweep.self_collision` has them."""
+        """Pairs of links and radii, as `engine.kernels.sweep.self_collision` has them.
+
+        Returns
+        -------
+        pairs : (6 pairs,) ndarray of int
+            Of both links, the first sphere, the one behind it and the end.
+        radii : (spheres,) ndarray
+            Radii, m.
+        """
         starts = list(accumulate((len(link.radii) for link in self.moved), initial=0))
         rows = []
         for pair in self._pair_numbers():
@@ -218,7 +253,13 @@ class SelfCollision(Result):
         return np.array(rows, np.int64), np.array(radii)
 
     def describe(self) -> dict[str, object]:
-        """SHA-256 of spheres and pairs, and how many there are."""
+        """Plain data from which the same mask is known again.
+
+        Returns
+        -------
+        data : dict
+            SHA-256 of spheres and pairs, how many there are, and the excess, m.
+        """
         pairs, radii = self.numbers()
         whole = hashlib.sha256(pairs.tobytes() + radii.tobytes())
         for link in self.moved:

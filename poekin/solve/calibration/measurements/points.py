@@ -159,8 +159,9 @@ class Points(Measurement):
         errors: Array,
         D: Array,
     ) -> Derivatives:
-        """Points move by v + ω × p; T_base_device <- T_base_device e^[ξ] by −ξ, seen from the device;
-        R dy for a point y of the tool.
+        """Points move by v + ω × p, by −ξ of T_base_device <- T_base_device e^[ξ], and by R dy.
+
+        The second is seen from the device, the third of a point y of the tool.
         """
         of_device, points = self._parts(frame_values)
         P = D.shape[2]
@@ -176,9 +177,7 @@ class Points(Measurement):
         return jacobian[..., :P], of_frames
 
     def guesses(self, T: Array) -> list[Array]:
-        """Unknown points from where the nominal arm is, and the rigid motion that brings the measured
-        points nearest to the nominal ones.
-        """
+        """Unknown points from where the nominal arm is, and the rigid motion to the measured ones."""
         has_device = self.frame == "unknown"
         points = self.points
         n_unknown = len(self.unknown_frames) - has_device

@@ -70,9 +70,7 @@ class _BetweenFrames(Measurement):
         return [named[u.name] for u in self.unknown_frames]
 
     def errors(self, T: Array, frame_values: Frames) -> Array:
-        """Errors (N, 6), the rotation vector of R_model R_measuredᵀ and p_model − p_measured, in the
-        axes of the fixed frame.
-        """
+        """Errors (N, 6) in the axes of the fixed frame: rotation vector of R_model R_measuredᵀ, Δp."""
         X, Z = self._both(frame_values)
         return pose_errors(se3.inverse(X) @ T @ Z, self.T)
 
@@ -83,8 +81,9 @@ class _BetweenFrames(Measurement):
         errors: Array,
         D: Array,
     ) -> Derivatives:
-        """With G = X⁻¹ T Z: dG G⁻¹ is Ad(X⁻¹) D, −ξ of X <- X e^[ξ], Ad(G) ζ of Z <- Z e^[ζ]; J_l⁻¹(w) ω
-        turns the error w, and v + ω × p moves it.
+        """With G = X⁻¹ T Z: dG G⁻¹ is Ad(X⁻¹) D, −ξ of X <- X e^[ξ], Ad(G) ζ of Z <- Z e^[ζ].
+
+        J_l⁻¹(w) ω turns the error w, and v + ω × p moves it.
         """
         if not len(frame_values):
             return pose_error_jacobian(T, errors, D), []
@@ -111,8 +110,9 @@ class _BetweenFrames(Measurement):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Poses(_BetweenFrames):
-    """Measured poses of the tip in the base frame, T = f(q), or of a probe on it in a device's frame,
-    T = T_base_device⁻¹ f(q) T_tip_probe.
+    """Measured poses of the tip in the base frame, T = f(q), or of a probe in a device's frame.
+
+    Then T = T_base_device⁻¹ f(q) T_tip_probe.
 
     Parameters
     ----------
