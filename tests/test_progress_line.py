@@ -80,7 +80,7 @@ def test_rate_and_time_left_are_by_what_was_done_since_the_first_call(run):
 
 def test_a_name_that_is_no_text_is_refused():
     wrong: Any = 3
-    with pytest.raises(InputError, match="^what: expected the name of the work, got 3$"):
+    with pytest.raises(InputError, match=r"^what: expected the name of the work, got 3$"):
         pk.ProgressLine(wrong)
 
 
