@@ -98,6 +98,7 @@ def test_the_matrix_of_a_vector_in_its_place_is_refused(function):
         with pytest.raises(ShapeError, match=r"^w: expected rotation vectors .*so3.vee of it is w"):
             function(so3.hat(w))
     skew = so3.hat([1, 2, 3])
-    for three in (np.zeros((3, 3)), np.eye(3), skew + np.diag([0, 0, 1e-12]), skew * np.nan):
+    nearly = skew + np.diag([0, 0, 1e-12])
+    for three in (np.zeros((3, 3)), np.eye(3), -np.eye(3), nearly, skew * np.nan):
         function(three)
     function(skew[None])

@@ -53,6 +53,7 @@ NEAR = {
     "formulas/exp_jacobian formulas/exponential formulas/logarithm": f"own {_ANGLES}",
     "formulas/structured": "own model/compiled",
     "groups/": f"groups/values groups/batches groups/objects groups/nearest groups/axis_angle {GROUPS}",
+    "groups/vectors": "own",
     "groups/rpy": "groups/values formats/rpy",
     "groups/euler": "own formats/poses/numbers formats/rpy",
     "engine/array_io": f"groups/batches {CHAINS}",
