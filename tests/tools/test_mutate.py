@@ -501,6 +501,17 @@ def test_a_suite_that_fails_by_itself_proves_nothing(small):
         run(small)
 
 
+def test_a_test_that_is_called_by_what_a_mutant_changes_is_looked_for_without_it(small):
+    (small / "tests" / "test_calculator.py").write_text(
+        "import pytest\nfrom poekin.calculator import double\n\n"
+        "@pytest.mark.parametrize('six', [double(3)])\ndef test_six(six):\n    assert six == 6\n",
+        encoding="utf-8",
+    )
+    outcomes = run(small, lambda m: "x" in m.new)
+    assert len(outcomes) > 3
+    assert set(outcomes.values()) == {"caught"}
+
+
 def mutant(key: str, path: str = "a.py") -> Mutant:
     return Mutant(path, "core/NumberReplacer", 0, 3, "f", "x = 1", "x = 2", key, 0, 1, "2")
 

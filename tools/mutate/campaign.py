@@ -25,6 +25,8 @@ Outcome = dict[str, object]
 _LEFT_OUT = shutil.ignore_patterns(
     ".git", ".venv", "build", "dist", "_build", "__pycache__", ".*_cache", ".hypothesis"
 )
+NOT_FOUND = "pytest itself (exit code 4)"
+"""What catches a mutant where a test that was asked for is not there."""
 _KEPT = 2  # tests that caught a neighbour are tried first
 
 
@@ -118,6 +120,7 @@ class Campaign:
         self._known: Path | None = None
         self._killers: dict[tuple[str, str], list[str]] = {}
         self._sound: set[str] = set()
+        self._passing: set[str] = set()  # tests that are there with one mutant alone
         self._lock = threading.Lock()
         self._faults: list[BaseException] = []
 
@@ -166,7 +169,7 @@ class Campaign:
         if outcome["outcome"] != "passed":
             by = str(outcome["by"])
             self._hold(server, mutant.path, by, sessions)
-            if "::" in by:
+            if "::" in by and by not in self._passing:
                 killers[:] = [by, *(other for other in killers if other != by)][:_KEPT]
         return {
             "key": mutant.key,
@@ -191,6 +194,12 @@ class Campaign:
         if what in self._sound:
             return
         outcome = self._asked(server, path, None, [alone] if alone else sessions)
+        if "[" in by and outcome["by"] == NOT_FOUND:
+            # an id made of a text that the mutant changes: without it there is no such test
+            self._passing.add(by)
+            outcome = self._asked(server, path, None, [[by.partition("[")[0]]])
         if outcome["outcome"] != "passed":
-            raise BrokenSuite(f"without any mutant {outcome['by'] or by}: {outcome['outcome']}")
+            raise BrokenSuite(
+                f"without any mutant {outcome['by'] or by}: {outcome['outcome']} ({path}; {what})"
+            )
         self._sound.add(what)
