@@ -74,6 +74,21 @@ def test_the_code_of_each_processor_is_kept_by_itself(monkeypatch, tmp_path, pro
     assert len(list((tmp_path / "cache").glob("arm-*.kernel"))) == 2
 
 
+def test_the_code_of_each_source_of_programs_is_kept_by_itself(monkeypatch, tmp_path, program):
+    monkeypatch.setenv("POEKIN_CACHE_DIR", str(tmp_path / "cache"))
+    made = []
+
+    def make():
+        made.append(program)
+        return program
+
+    arm_code("key", make, 6, True)
+    for source, count in (("another", 2), ("another", 2), ("a third", 3)):
+        monkeypatch.setattr("poekin.engine.straight_line.arm_code.LOADED_PROGRAMS", source)
+        arm_code("key", make, 6, True)
+        assert len(made) == count
+
+
 def test_columns_hold_the_numbers_of_four_configurations_side_by_side():
     chain = load("puma560").chain()
     q = chain.random(1, size=arm_kernels.BLOCK)
