@@ -51,6 +51,12 @@ def normalised(x: Array) -> Array:
     return x / np.linalg.norm(x, axis=-1, keepdims=True)
 
 
+def normalised_or_zero(x: Array) -> Array:
+    """Vectors (..., n) divided by their lengths; 0 stays 0."""
+    size = np.linalg.norm(x, axis=-1, keepdims=True)
+    return x / np.maximum(size, np.finfo(float).tiny)
+
+
 def dots(x: Array, y: Array) -> Array:
     """x . y over the last axis, which stays, of length 1."""
     return (x * y).sum(axis=-1, keepdims=True)

@@ -9,6 +9,7 @@ from poekin.groups.vectors import (
     linear_part,
     norm,
     normalised,
+    normalised_or_zero,
     norms,
     rotation_part,
     translation_part,
@@ -26,6 +27,11 @@ def test_norms_are_the_lengths_along_the_last_axis():
 
 def test_normalised_vectors_are_divided_by_their_lengths():
     assert (normalised(VECTORS) == VECTORS / [[5.0], [13.0]]).all()
+
+
+def test_a_vector_of_length_zero_stays_zero():
+    found = normalised_or_zero(np.array([[3.0, 4.0], [0.0, 0.0]]))
+    assert (found == np.array([[3.0, 4.0], [0.0, 0.0]]) / [[5.0], [1.0]]).all()
 
 
 def test_dots_keep_an_axis_of_length_one():

@@ -9,7 +9,6 @@ from typer import Exit, Option
 
 from ...progress_line import ProgressLine
 from ...sweep.maps.histogram import histogram
-from ...sweep.masks.self_collision import SelfCollision
 from ..kinematics.arm import Base, File, Json, Seed, Tip
 from ..model import model
 from ..output import as_json, number, say, table
@@ -21,6 +20,7 @@ from .options import (
     SigmaAngle,
     SigmaLength,
     Workers,
+    mask_from,
     measure_from,
     samples_from,
 )
@@ -54,7 +54,7 @@ def command(
     """
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
-    mask = SelfCollision.of_robot(robot, chain) if self_collision else None
+    mask = mask_from(robot, chain, self_collision)
     with executor(scheduler) as runs, ProgressLine("sweep") as progress:
         found = histogram(
             chain,

@@ -10,7 +10,9 @@ from typer import Option
 
 from ...errors import InputError
 from ...model.chain import Chain
+from ...model.robot import Robot
 from ...model.sampling import angle_mask
+from ...sweep.masks.self_collision import SelfCollision
 from ...sweep.measures.measure import Measure
 from ...sweep.measures.names import measure_of
 from ...sweep.measures.pose_uncertainty import ErrorPart, PoseUncertainty
@@ -74,6 +76,11 @@ Workers = Annotated[
     int | None,
     Option("--workers", min=1, help="Number of threads (default: one for each processor)."),
 ]
+
+
+def mask_from(robot: Robot, chain: Chain, self_collision: bool) -> SelfCollision | None:
+    """Mask by the robot's collision geometry, if it is asked for."""
+    return SelfCollision.of_robot(robot, chain) if self_collision else None
 
 
 def measure_from(

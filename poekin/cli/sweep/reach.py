@@ -11,7 +11,6 @@ from ...errors import InputError
 from ...progress_line import ProgressLine
 from ...sweep.maps import map_files
 from ...sweep.maps.reach import reach
-from ...sweep.masks.self_collision import SelfCollision
 from .. import array_files
 from ..kinematics.arm import Base, File, Json, Seed, Tip
 from ..model import model
@@ -27,6 +26,7 @@ from .options import (
     SigmaLength,
     Workers,
     count_from,
+    mask_from,
     measure_from,
 )
 from .scheduler import Scheduler, executor
@@ -86,7 +86,7 @@ def command(
         )
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
-    mask = SelfCollision.of_robot(robot, chain) if self_collision else None
+    mask = mask_from(robot, chain, self_collision)
     with executor(scheduler) as runs, ProgressLine("sweep") as progress:
         found = reach(
             chain,

@@ -12,7 +12,7 @@ from ....checks import choice
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
-from ....groups.vectors import norms, rotation_part, translation_part
+from ....groups.vectors import normalised_or_zero, norms, rotation_part, translation_part
 from ....model.checks import finite
 from ..fit import initial_guess
 from .measurement import Derivatives, Frames, Measurement, UnknownFrame, seen_from
@@ -301,9 +301,7 @@ class Distances(Measurement):
         """Derivatives u · (v + ω × y), and −u for c, u the unit vector from c to y; 0 at y = c."""
         y = point_at(T, self.point)
         away = self._away(y, frame_values)
-        size = np.linalg.norm(away, axis=1, keepdims=True)
-        divisor = np.maximum(size, np.finfo(float).tiny)
-        u = (away / divisor)[:, None]
+        u = normalised_or_zero(away)[:, None]
         return u @ velocities(D, y), [-u for _ in frame_values]
 
     def guesses(self, T: Array) -> list[Array]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups.arrays import Array, numbers
-from ....groups.vectors import norms
+from ....groups.vectors import normalised_or_zero, norms
 from .measurement import Derivatives, Frames, Measurement
 from .points import unknown_points
 
@@ -104,9 +104,7 @@ class Separations(Measurement):
         D: Array,
     ) -> Derivatives:
         """Derivatives u and −u for the two points, u the unit vector between them; none for the arm."""
-        apart = self._apart(frame_values)
-        size = np.linalg.norm(apart, axis=1, keepdims=True)
-        u = apart / np.maximum(size, np.finfo(float).tiny)
+        u = normalised_or_zero(self._apart(frame_values))
         numbered = np.arange(len(frame_values))
         firsts = self.pairs[:, :1] == numbered
         seconds = self.pairs[:, 1:] == numbered
