@@ -73,5 +73,5 @@ def test_a_device_stays_one():
 
 
 def test_a_name_that_no_file_can_have_is_refused_in_words():
-    with pytest.raises(FileError, match=r"^cannot write 'a\\x00': embedded null"):
+    with pytest.raises(FileError, match=r"^cannot write 'a\\x00': .*embedded null"):
         write_whole("a\0", b"1")

@@ -96,11 +96,16 @@ def pose_errors(chain: pk.Chain, rows: np.ndarray, T: np.ndarray) -> np.ndarray:
 
 
 def regular(chain: pk.Chain, q: np.ndarray, least: float = 1e-3) -> np.ndarray:
-    """Whether configurations are clear of singular ones, by the smallest singular value."""
+    """Whether configurations are clear of singular ones."""
+    return clearance(chain, q) > least
+
+
+def clearance(chain: pk.Chain, q: np.ndarray) -> np.ndarray:
+    """Smallest singular value of the Jacobian in reaches, as a share of the largest."""
     J = chain.jacobian(q, frame="hybrid")
-    J[:, 3:] /= chain.reach
+    J[..., 3:, :] /= chain.reach
     sizes = np.linalg.svd(J, compute_uv=False)
-    return sizes[:, -1] > least * sizes[:, 0]
+    return sizes[..., -1] / sizes[..., 0]
 
 
 def silently_missed(chain: pk.Chain, found: ClosedForm, q: np.ndarray, near: float) -> int:

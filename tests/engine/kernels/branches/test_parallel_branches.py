@@ -43,8 +43,9 @@ def test_the_configuration_of_a_pose_is_among_its_branches(first, kinds):
     )
     q = np.where(arms.sliding(chain), 0.2 * Q, Q)
     rows, margins = filled(chain, q)
-    # some 100 roundings of numbers up to 1, over how far from singular these arms are
-    assert arms.apart(chain, rows[None][:, margins > 0], q[None])[0] <= 1e-9
+    # some 100 roundings of numbers up to 1, over how far from singular the arm is
+    limit = 100 * np.finfo(float).eps / arms.clearance(chain, q)
+    assert arms.apart(chain, rows[None][:, margins > 0], q[None])[0] <= limit
     reached = chain.fk(rows[margins > 0])
     np.testing.assert_allclose(reached, np.broadcast_to(chain.fk(q), reached.shape), atol=1e-8)
 
