@@ -41,6 +41,16 @@ def test_what_rounding_takes_from_the_angle_does_not_count_in_a_b_and_the_cosine
     assert (worst <= [3, 5, 2]).all(), worst
 
 
+@pytest.mark.parametrize("off", [1e-6, -1e-6])
+@pytest.mark.parametrize("t", [1.1, 2.3, 3.1, 5.0, 9.0])
+def test_a_square_of_the_angle_that_is_off_counts_to_second_order_alone(t, off):
+    w = (0.48 * t, -0.6 * t, 0.64 * t)
+    found = exponential.closed_form(w, t * t * (1.0 + off))
+    expected = (np.sin(t) / t, (1.0 - np.cos(t)) / t**2, np.cos(t))
+    # the angle is off by half as much
+    assert np.abs(np.subtract(found, expected)).max() <= (off * t) ** 2
+
+
 @pytest.mark.parametrize(
     "w", VECTORS, ids=lambda w: f"{np.linalg.norm(w):.3g} about {np.round(w, 2)}"
 )
