@@ -46,6 +46,7 @@ NEAR = {
     "formulas/": f"own {_KINDS} {CHAINS} {GROUPS}",
     "formulas/arctangent formulas/coefficients formulas/quaternion": f"own {_ANGLES}",
     "formulas/damped_step formulas/least_squares formulas/pose_error": f"own {_KINDS}",
+    "formulas/circle_conic": f"formulas/conic_of_lines own {_KINDS}",
     "formulas/defect": f"own groups/batches {_SMALL_ANGLES}",
     "formulas/derivatives formulas/screw_changes": "own model/derivatives",
     "formulas/dh": f"own {_TABLES}",

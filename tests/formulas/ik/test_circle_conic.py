@@ -231,6 +231,18 @@ def test_the_derivatives_are_those_of_the_left_side():
         np.testing.assert_allclose(got, expected, atol=1e-14)
 
 
+def test_a_step_to_the_roots_is_that_of_laguerre_and_its_real_part_where_they_are_complex():
+    rng = np.random.default_rng(17)
+    for value, slope, bend in rng.normal(size=(100, 3)).tolist():
+        # of q(t) = value + 2 slope t + ... of degree 4 in t, by its first two derivatives
+        first = 2.0 * slope
+        root = np.emath.sqrt(9.0 * first**2 - 48.0 * value * (value + bend))
+        below = first + math.copysign(1.0, first) * root
+        expected = (-4.0 * value / below).real
+        got = circle_conic._laguerre_step(value, slope, bend)
+        assert got == pytest.approx(expected, rel=1e-13)
+
+
 def test_points_less_sharp_are_right_to_rounding_of_the_pencil():
     """100 u where no points meet: what is left to the rule that sharpens both angles of `two_circles`."""
     rng = np.random.default_rng(15)

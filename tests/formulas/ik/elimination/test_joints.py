@@ -67,3 +67,15 @@ def test_how_well_the_second_angle_is_told_is_of_the_equations_not_of_their_size
     p = (length, 0.0, 0.0)
     found = joints.second((x, z), (zero, zero), p, x, p, y)
     assert found[2] == pytest.approx(told, rel=1e-5)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_how_well_it_is_told_is_one_where_both_singular_values_of_the_equations_are_equal(seed):
+    h, P, _, E = arm(seed)
+    p, d = map(tuple, line(P, E, h))
+    h = tuples(h)
+    P = tuples(P)
+    rows = [joints._row(w, h[1], a, 0.0)[:2] for w in (h[0], P[0]) for a in (p, d)]
+    sizes = np.linalg.svd(rows, compute_uv=False)
+    expected = (2.0 * sizes[0] * sizes[1] / (sizes[0] ** 2 + sizes[1] ** 2)) ** 2
+    assert joints.second(h, P, p, d, p, d)[2] == pytest.approx(expected, abs=1e-14)
