@@ -316,3 +316,28 @@ def test_in_60_digits_it_gives_60_digits(draw):
                 ]
                 fine = (cost(*rows, *root) - UNIT) * mpmath.mpf(10) ** -60 / UNIT
                 assert min(errors) <= 10 * fine + mpmath.mpf(10) ** -59
+
+
+def test_newton_s_step_solves_the_linear_equations_and_is_none_where_they_are_dependent():
+    rng = np.random.default_rng(18)
+    for _ in range(50):
+        J = rng.normal(size=(2, 2))
+        left = rng.normal(size=2)
+        step = two_circles._newton(*left, *J.T.ravel())
+        # a step of a 2 x 2 system is right to its condition times some roundings
+        limit = 1e-15 * np.linalg.cond(J) * np.linalg.norm(step)
+        np.testing.assert_allclose(step, np.linalg.solve(J, -left), atol=4 * limit, rtol=0)
+    assert two_circles._newton(0.1, 0.2, 1.0, 2.0, 3.0, 6.0) == (0.0, 0.0)
+
+
+def test_the_steepest_step_goes_along_the_gradient_to_the_least_residual():
+    rng = np.random.default_rng(19)
+    for _ in range(50):
+        J = rng.normal(size=(2, 2))
+        left = rng.normal(size=2)
+        gradient = J.T @ left
+        along = J @ gradient
+        expected = -gradient * (left @ along) / (along @ along)
+        step = two_circles._steepest(*left, *J.T.ravel())
+        np.testing.assert_allclose(step, expected, rtol=1e-12)
+    assert two_circles._steepest(0.1, 0.2, 0.0, 0.0, 0.0, 0.0) == (0.0, 0.0)

@@ -107,3 +107,27 @@ def test_a_branch_whose_own_pose_is_the_target_is_taken_as_it_is():
         assert count == 1
         assert len(at) == calls
         np.testing.assert_array_equal(found[0], q)
+
+
+def test_the_rule_ends_where_errors_within_1e_9_stop_falling_and_keeps_the_least():
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    T[:3, :3] *= 1.0 + 1e-11  # no rotation: its error stays above rounding
+    found, at = np.empty((1, 6)), []
+
+    def asked(x, T, J):
+        at.append(x.copy())
+        forward(x, T, J)
+
+    def given(branch, T):
+        T[:] = np.eye(4)
+
+    rows = np.array([branch(q + 1e-3)])
+    work = np.empty((14, 6))
+    count = confirmed.select(asked, given, T, rows, SIZES, np.empty((4, 4)), work, found)
+    assert count == 1
+    # Newton's rule squares 1e-3 until rounding is met, and one step more tells that it is
+    assert len(at) <= 5
+    errors = [confirmed.size(confirmed.pose_error(ARM.fk(x), T), ARM.reach) for x in at]
+    least = confirmed.size(confirmed.pose_error(ARM.fk(found[0]), T), ARM.reach)
+    assert least == min(errors)
