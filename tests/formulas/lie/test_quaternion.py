@@ -75,6 +75,13 @@ def test_the_quaternion_is_that_of_the_angle_and_at_pi_its_largest_component_is_
         same(q / np.linalg.norm(q), np.r_[0.0, axis * np.sign(axis[np.abs(axis).argmax()])])
 
 
+def test_each_component_of_a_quaternion_has_its_own_rest(monkeypatch):
+    q = (1.0, 2.0, 3.0, 4.0)
+    rest = (0.5, 0.25, 0.125, 0.0625)
+    monkeypatch.setattr(quaternion, "parts", lambda R: (q, rest, 1.0, -1.0))
+    assert quaternion.quaternion((0.0,) * 9) == (-1.5, -2.25, -3.125, -4.0625)
+
+
 def test_the_unit_quaternion_is_that_of_the_logarithm_and_of_length_one():
     for R in rotations(0.0):
         q = exact.exactly(quaternion.unit_quaternion(tuple(map(float, R.ravel()))))
