@@ -66,6 +66,9 @@ def test_a_rotation_that_misses_orthonormality_is_refused_with_its_place():
 def test_a_reflection_is_refused():
     with pytest.raises(PoseError, match="reflection"):
         so3.log(np.diag([1.0, 1.0, -1.0]))
+    # where what it misses of R R^T = I is just accepted
+    with pytest.raises(PoseError, match="reflection"):
+        so3.log(np.array([[-1.0, 0.0, 0.0], [0.0, 1.0, 1e-5], [0.0, 0.0, 1.0]]))
 
 
 @pytest.mark.parametrize(

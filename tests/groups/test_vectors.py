@@ -71,3 +71,12 @@ def test_the_angular_part_of_a_twist_comes_first():
 def test_a_prismatic_joint_points_along_its_velocity_and_any_other_along_its_axis():
     screws = np.array([[0.0, 0.0, 1.0, 4.0, 5.0, 6.0], [0.0, 0.0, 0.0, 0.0, 1.0, 0.0]])
     assert (directions(screws) == [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]).all()
+
+
+def test_vectors_stand_along_the_last_axis_of_any_number():
+    x = np.arange(24.0).reshape(2, 4, 3)
+    assert (dots(x, x)[..., 0] == np.einsum("...i,...i", x, x)).all()
+    S = np.zeros((2, 1, 6))
+    S[0, 0, 2] = S[1, 0, 4] = 1.0
+    S[0, 0, 3] = 9.0
+    assert (directions(S)[:, 0] == [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]).all()
