@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-_SECONDS = 0.2  # from one task's end to the next one's: Dask takes some milliseconds for each
+_SECONDS = 0.4  # of a task: Dask takes some milliseconds for each
+_APART = 0.01  # s from one task's end to the next one's: who asked takes a part of them
 _ROUNDS = 2  # of tasks, at least, so that all workers end at about the same time
 
 
@@ -38,6 +39,7 @@ class Ranges:
 
     def adapt(self, done: Range, seconds: float) -> None:
         """Makes ranges to come as long as suits the seconds that a worker took for one."""
-        samples = (done.last - done.first) * _SECONDS * self.most / (2 * seconds)
+        wanted = _SECONDS + _APART * self.most / 2
+        samples = (done.last - done.first) * wanted / seconds
         longest = self.count / (_ROUNDS * self.most)
         self.chunks = max(int(min(samples, longest)) // self.chunk, 1)

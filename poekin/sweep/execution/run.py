@@ -65,7 +65,7 @@ def run(
     chunk : int, optional
         Number of samples that are run, and kept, at a time; by default four for each cell of the
         map, 4194304 at least, so that a part costs more than the map that it comes in. An executor
-        runs several in a task, so that one ends each fifth of a second, unless there is a store.
+        runs several in a task of some tenths of a second, unless there is a store.
     workers : int, optional
         Number of threads, by default one for each processor; of an executor its workers, which are
         given twice as many parts at a time, by default 16.

@@ -1,4 +1,4 @@
-"""Ranges follow each other over all samples, and are as many chunks as take a fifth of a second."""
+"""Ranges follow each other over all samples, and are as many chunks as take 0.4 s."""
 
 from __future__ import annotations
 
@@ -37,16 +37,17 @@ def test_ranges_are_whole_chunks_that_follow_each_other_up_to_the_last_sample(
 @pytest.mark.parametrize(
     ("seconds", "most", "chunks"),
     [
-        (0.02, 2, 10),  # one worker: ten chunks of 20 ms
-        (0.02, 6, 30),  # three workers: thirty, so that each ends a task in 0.6 s
-        (0.0214, 2, 9),
-        (0.2, 2, 1),
+        (0.02, 2, 20),  # one worker: 0.41 s
+        (0.04, 80, 6),  # forty: 0.8 s, but each has four tasks of a thousand chunks
+        (0.4, 80, 2),
+        (0.042, 2, 9),
+        (0.3, 2, 1),
         (9.0, 2, 1),  # never less than one
         (1e-6, 2, 250),  # a half of what each of two may run
         (1e-6, 10, 50),
     ],
 )
-def test_a_range_to_come_ends_a_fifth_of_a_second_after_the_one_before(seconds, most, chunks):
+def test_a_range_to_come_takes_some_tenths_of_a_second(seconds, most, chunks):
     ranges = Ranges(1000 * CHUNK, CHUNK, most)
     single, other = islice(ranges, 2)
     assert [one.last - one.first for one in (single, other)] == [CHUNK, CHUNK]
