@@ -92,10 +92,10 @@ def test_the_code_of_each_source_of_programs_is_kept_by_itself(monkeypatch, tmp_
 
 
 def coupled() -> Chain:
-    """Axes driven backwards and by two coordinates, with offsets, and a slide."""
+    """Axes driven by two coordinates, one of them backwards, with an offset, and a slide."""
     axes = [screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute([0, 1, 0], [0, 0, 0.3])]
     screws = [*axes, screw.prismatic([1, 0, 0])]
-    coupling = [[-1, 0], [2, 0.5], [0, 1]]
+    coupling = [[1, -1], [2, 0.5], [0, 1]]
     return Chain.from_space(screws, np.eye(4), coupling=coupling, offset=[0, 0.2, 0.1])
 
 
