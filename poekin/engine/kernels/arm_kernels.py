@@ -106,21 +106,23 @@ def sines_room(arm):
 
 
 def sines_of_block(arm, q, sines, cosines):
-    """Sines and cosines of the angles of a block of configurations, q (BLOCK, m)."""
+    """Sines and cosines of the angles of a block of configurations, q (m, BLOCK), by code whose
+    layout is "columns".
+    """
     count = _header(arm)[0]
     angles = _header(arm)[2]
-    for k in range(BLOCK):
-        _angles(angles, q, k, sines, BLOCK, k)
+    for k in range(0, BLOCK, LANES):
+        _angles(angles, q[0, k:], 0, sines, BLOCK, k)
     for j in range(count):
         _sines_cosines(sines[j], cosines[j], BLOCK)
 
 
 def run_columns(arm, sines, cosines, k, q, R_p, J):
-    """Four configurations of a block, from its k-th on: the pose's numbers R_p (12, LANES) and the
-    Jacobian's J (6 m, LANES), by code whose layout is "columns".
+    """Four configurations of a block, from its k-th on: the pose's numbers in R_p (12, BLOCK), from
+    its k-th column on, and the Jacobian's in J (6 m, LANES).
     """
     columns = _header(arm)[3]
-    _run(columns, sines, cosines, BLOCK, k, q[k:], R_p, J, 0)
+    _run(columns, sines, cosines, BLOCK, k, q[0, k:], R_p[0, k:], J, 0)
 
 
 def _all_moderate(sines, count):

@@ -13,8 +13,9 @@ where joints slide; they write the pose's 16 numbers at T[16 lane], and the Jaco
 lane]. What the program does not have is not written.
 
 `columns`, which stands alone, takes four too and leaves each number with those of its like: number i
-of the pose's twelve at T[4 i + lane], of the Jacobian at J[4 i + lane]. Nothing is fused in it: it
-gives the same bits on every processor.
+of the pose's twelve at T[stride i + lane], of the Jacobian at J[4 i + lane]. So does its `angles`,
+whose q and sines are of four: coordinate k is at q[stride k + lane] to both. Nothing is fused in
+it: it gives the same bits on every processor.
 """
 
 # pyright: reportCallIssue=false
@@ -83,7 +84,8 @@ def object_code(program: Program, pose: bool, layout: Layout = "rows") -> bytes:
     """The machine code of a program whose outputs begin with a pose or not."""
     module = ir.Module("arm")
     module.triple = binding.get_default_triple()
-    _write_angles(module, program)
+    lanes = LANES if layout == "columns" else 1
+    _Function(module, "angles", lanes, layout, ANGLES).write_angles(program)
     for name, lanes in FUNCTIONS[layout].items():
         _Function(module, name, lanes, layout).write(program, pose)
     # LLVM keeps constants as long as their context: in the global one those of every arm would stay
@@ -106,44 +108,48 @@ class LoadedCode:
         self.addresses = tuple(map(self._engine.get_function_address, names))
 
 
-def _write_angles(module: ir.Module, program: Program) -> None:
-    function = ir.Function(module, ANGLES, "angles")
-    build = ir.IRBuilder(function.append_basic_block())
-    q, sines, stride = function.args
-    values: list[Any] = []
-    for angle in program.angles:
-        parts = [] if angle.base is None else [values[angle.base]]
-        for k, factor in angle.terms:
-            place = build.gep(q, [_INT(k)])
-            x = build.load(place, align=8)
-            if factor == -1:
-                x = build.fneg(x)
-            elif factor != 1:
-                x = build.fmul(_DOUBLE(factor), x)
-            parts.append(x)
-        if angle.offset:
-            parts.append(_DOUBLE(angle.offset))
-        total = parts[0]
-        for part in parts[1:]:
-            total = build.fadd(total, part)
-        values.append(total)
-    for j, value in enumerate(values):
-        place = build.gep(sines, [build.mul(stride, _INT(j))])
-        build.store(value, place, align=8)
-    build.ret_void()
-
-
 class _Function:
     """One function of the module, over `lanes` configurations side by side."""
 
-    def __init__(self, module: ir.Module, name: str, lanes: int, layout: Layout):
-        self.function = ir.Function(module, SIGNATURE, name)
+    def __init__(
+        self,
+        module: ir.Module,
+        name: str,
+        lanes: int,
+        layout: Layout,
+        signature: ir.FunctionType = SIGNATURE,
+    ):
+        self.function = ir.Function(module, signature, name)
         self.build = ir.IRBuilder(self.function.append_basic_block())
         self.lanes = lanes
         self.layout = layout
         self.flags = _CONTRACT if layout == "rows" else ()
         self.length = 0
         self.type = _DOUBLE if lanes == 1 else ir.VectorType(_DOUBLE, lanes)
+
+    def write_angles(self, program: Program) -> None:
+        """All of `angles`."""
+        build = self.build
+        q, sines, stride = self.function.args
+        values: list[Any] = []
+        for angle in program.angles:
+            parts = [] if angle.base is None else [values[angle.base]]
+            for k, factor in angle.terms:
+                x = self._coordinate(k, q, stride, _INT(0))
+                if factor == -1:
+                    x = build.fneg(x)
+                elif factor != 1:
+                    x = build.fmul(self._constant(factor), x)
+                parts.append(x)
+            if angle.offset:
+                parts.append(self._constant(angle.offset))
+            total = parts[0]
+            for part in parts[1:]:
+                total = build.fadd(total, part)
+            values.append(total)
+        for j, value in enumerate(values):
+            build.store(value, self._row(sines, stride, j), align=8)
+        build.ret_void()
 
     def write(self, program: Program, pose: bool) -> None:
         """All of it: inputs, steps, outputs."""
@@ -169,12 +175,12 @@ class _Function:
                 first = values[int(node.first)]
                 values[number] = operation(first, second, flags=self.flags)
         outputs = [self._output(values, number, sign) for number, sign in program.outputs]
-        *_, T, J = self.function.args
+        _, _, stride, *_, T, J = self.function.args
         numbers = outputs[:12] if pose else []
         entries = outputs[len(numbers) :]
         if self.layout == "columns":
-            self._store_columns(T, numbers)
-            self._store_columns(J, entries)
+            self._store_columns(T, numbers, stride)
+            self._store_columns(J, entries, _INT(LANES))
         else:
             if pose:
                 R = numbers[:9]
@@ -228,33 +234,39 @@ class _Function:
         return ir.Constant(self.type, [value] * self.lanes)
 
     def _input(self, number: int):
-        build = self.build
         sines, cosines, stride, q, width, *_ = self.function.args
-        if number >= 0:
-            row = build.mul(stride, _INT(number // 2))
-            place = build.gep((sines, cosines)[number % 2], [row])
-            vector = self._cast_pointer(place, self.type)
-            return build.load(vector, align=8)
-        k = _INT(-1 - number)
-        value = build.load(build.gep(q, [k]), align=8)
+        if number < 0:
+            return self._coordinate(-1 - number, q, stride, width)
+        row = self._row((sines, cosines)[number % 2], stride, number // 2)
+        return self.build.load(row, align=8)
+
+    def _coordinate(self, k: int, q, stride, width):
+        """Coordinate k of all lanes."""
+        build = self.build
+        if self.layout == "columns":
+            return build.load(self._row(q, stride, k), align=8)
+        value = build.load(build.gep(q, [_INT(k)]), align=8)
         if self.lanes == 1:
             return value
         undefined = ir.Constant(self.type, ir.Undefined)
         row = build.insert_element(undefined, value, _INDEX(0))
         for lane in range(1, self.lanes):
             start = build.mul(width, _INT(lane))
-            place = build.gep(q, [build.add(start, k)])
+            place = build.gep(q, [build.add(start, _INT(k))])
             value = build.load(place, align=8)
             row = build.insert_element(row, value, _INDEX(lane))
         return row
 
-    def _store_columns(self, start, values) -> None:
-        """Each value with all its lanes, one after the other."""
+    def _row(self, start, stride, i: int):
+        """Place of the lanes that stand i times `stride` behind a start."""
+        place = self.build.gep(start, [self.build.mul(stride, _INT(i))])
+        return self._cast_pointer(place, self.type)
+
+    def _store_columns(self, start, values, stride) -> None:
+        """Each value with all its lanes, one `stride` after the other."""
         for i, value in enumerate(values):
             self._extend_block()
-            place = self.build.gep(start, [_INT(LANES * i)])
-            vector = self._cast_pointer(place, self.type)
-            self.build.store(value, vector, align=8)
+            self.build.store(value, self._row(start, stride, i), align=8)
 
     def _store(self, start, values) -> None:
         """The values one after the other; of several lanes each lane's, four by four turned from

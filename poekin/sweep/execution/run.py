@@ -7,7 +7,7 @@ import pickle
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, NamedTuple, Protocol, TypedDict, Unpack
+from typing import Any, Protocol, TypedDict, Unpack
 
 from ...checks import whole
 from ...engine.jit.threads import processors
@@ -15,8 +15,9 @@ from ...errors import InputError
 from ...results import Progress
 from ..maps.sweep_map import SweepMap, map_of
 from ..sweep import Sweep
+from .ranges import Range, Ranges
 from .store import Store
-from .totals import SweepPart, Totals, part_of
+from .totals import Totals, timed_part
 
 _CHUNK = 2**22  # samples a part at least: some tenths of a second
 _OF_CELL = 4  # samples a part for each cell of the map
@@ -45,14 +46,6 @@ class RunOptions(TypedDict, total=False):
     progress: Progress | None
 
 
-class Range(NamedTuple):
-    """Samples first ... last - 1, part `number` of a sweep."""
-
-    number: int
-    first: int
-    last: int
-
-
 def run(
     sweep: Sweep,
     *,
@@ -71,7 +64,8 @@ def run(
         The sweep.
     chunk : int, optional
         Number of samples that are run, and kept, at a time; by default four for each cell of the
-        map, 4194304 at least, so that a part costs more than the map that it comes in.
+        map, 4194304 at least, so that a part costs more than the map that it comes in. An executor
+        runs several in a task of some tenths of a second, unless there is a store.
     workers : int, optional
         Number of threads, by default one for each processor; of an executor its workers, which are
         given twice as many parts at a time, by default 16.
@@ -126,20 +120,16 @@ def run_totals(sweep: Sweep, **options: Unpack[RunOptions]) -> Totals:
     threads = workers or processors()
     _check_memory(sweep, threads + 1)
     kept = None if store is None else Store(store, sweep, chunk, options.get("resume", False))
-    ranges = _ranges(sweep.samples.count, chunk)
+    if executor is not None:
+        threads = workers or _GIVEN
+    ranges = Ranges(sweep.samples.count, chunk, 2 * threads)
     tell = _Teller(options.get("progress"), sweep.samples.count)
     if executor is not None:
-        most = 2 * (workers or _GIVEN)
-        return _summed(sweep, ranges, executor, kept, tell, most)
+        return _summed(sweep, ranges, executor, kept, tell)
     with ThreadPoolExecutor(threads, thread_name_prefix="poekin") as own:
         if kept is None:
-            return _shared(sweep, ranges, own, threads, tell)
-        return _summed(sweep, ranges, own, kept, tell, 2 * threads)
-
-
-def _ranges(count: int, chunk: int) -> Iterator[Range]:
-    for number, first in enumerate(range(0, count, chunk)):
-        yield Range(number, first, min(first + chunk, count))
+            return _shared(sweep, iter(ranges), own, threads, tell)
+        return _summed(sweep, ranges, own, kept, tell)
 
 
 class _Teller:
@@ -199,13 +189,12 @@ def _shared(
 
 def _summed(
     sweep: Sweep,
-    ranges: Iterator[Range],
+    ranges: Ranges,
     executor: Any,
     store: Store | None,
     tell: _Teller,
-    most: int,
 ) -> Totals:
-    """The sum of all parts, with no more of them waited for at a time than `most`."""
+    """The sum of all parts, with no more of them waited for at a time than `ranges.most`."""
     totals = Totals(sweep)
     pickled = pickle.dumps(sweep)
     waiting: list[tuple[Range, Any]] = []
@@ -214,8 +203,10 @@ def _summed(
         # one that is done is kept at once, whatever was begun before it
         done = (k for k, (_, future) in enumerate(waiting) if future.done())
         one, future = waiting.pop(next(done, 0))
-        part: SweepPart = future.result()
-        if store is not None:
+        part, seconds = future.result()
+        if store is None:
+            ranges.adapt(one, seconds)
+        else:
             store.write(one.number, part)
         totals.add(part)
         tell.add(one)
@@ -227,8 +218,8 @@ def _summed(
                 totals.add(part)
                 tell.add(one)
                 continue
-            waiting.append((one, executor.submit(part_of, pickled, one.first, one.last)))
-            if len(waiting) >= most:
+            waiting.append((one, executor.submit(timed_part, pickled, one.first, one.last)))
+            if len(waiting) >= ranges.most:
                 take()
         while waiting:
             take()

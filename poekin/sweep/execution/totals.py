@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import pickle
+import time
 from typing import NamedTuple
 
 import numpy as np
@@ -154,6 +155,13 @@ def part_of(pickled: bytes, first: int, last: int) -> SweepPart:
     totals = Totals(sweep)
     totals.run(first, last)
     return totals.part()
+
+
+def timed_part(pickled: bytes, first: int, last: int) -> tuple[SweepPart, float]:
+    """Part of samples first ... last - 1 of a sweep, and the seconds that it took."""
+    start = time.perf_counter()
+    part = part_of(pickled, first, last)
+    return part, time.perf_counter() - start
 
 
 # A worker gets the same sweep with each of its parts.

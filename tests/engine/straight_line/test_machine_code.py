@@ -24,6 +24,8 @@ from poekin.engine.straight_line.machine_code import (
     processor,
 )
 from poekin.formats.load import load
+from poekin.model import screw
+from poekin.model.chain import Chain
 
 
 def named(monkeypatch, name: str | None) -> None:
@@ -89,23 +91,34 @@ def test_the_code_of_each_source_of_programs_is_kept_by_itself(monkeypatch, tmp_
         assert len(made) == count
 
 
-def test_columns_hold_the_numbers_of_four_configurations_side_by_side():
-    chain = load("puma560").chain()
-    q = chain.random(1, size=arm_kernels.BLOCK)
-    fast = chain.compile()
-    made = fast.program("hybrid", pose=True)
-    arm = ArmCode(object_code(made, True, "columns"), len(made.angles), 6, "columns")
+def coupled() -> Chain:
+    """Axes driven by two coordinates, one of them backwards, with an offset, and a slide."""
+    axes = [screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute([0, 1, 0], [0, 0, 0.3])]
+    screws = [*axes, screw.prismatic([1, 0, 0])]
+    coupling = [[1, -1], [2, 0.5], [0, 1]]
+    return Chain.from_space(screws, np.eye(4), coupling=coupling, offset=[0, 0.2, 0.1])
+
+
+@pytest.mark.parametrize("make", [lambda: load("puma560").chain(), coupled])
+def test_columns_hold_the_numbers_of_four_configurations_side_by_side(make):
+    chain = make()
+    m = chain.dof
+    q = np.random.default_rng(1).uniform(-1, 1, (arm_kernels.BLOCK, m))
+    made = chain.compile().program("hybrid", pose=True)
+    arm = ArmCode(object_code(made, True, "columns"), len(made.angles), m, "columns")
     sines = np.empty((len(made.angles), arm_kernels.BLOCK))
     cosines = np.empty_like(sines)
-    R_p = np.empty((12, LANES))
-    J = np.empty((36, LANES))
+    R_p = np.full((12, arm_kernels.BLOCK), 77.0)
+    J = np.empty((6 * m, LANES))
     first = 8
+    four = slice(first, first + LANES)
     arm_kernels.pose_one.ready()  # which lets compiled code call the functions of its module
-    run_columns(arm.address, q, sines, cosines, first, R_p, J)
-    T_own, J_own = chain.fk_jacobian(q[first : first + LANES], "hybrid")
-    np.testing.assert_allclose(R_p[:9].T, T_own[:, :3, :3].reshape(LANES, 9), atol=1e-14)
-    np.testing.assert_allclose(R_p[9:].T, T_own[:, :3, 3], atol=1e-14)
-    np.testing.assert_allclose(J.T, J_own.reshape(LANES, 36), atol=1e-14)
+    run_columns(arm.address, q.T.copy(), sines, cosines, first, R_p, J)
+    T_own, J_own = chain.fk_jacobian(q[four], "hybrid")
+    np.testing.assert_allclose(R_p[:9, four].T, T_own[:, :3, :3].reshape(LANES, 9), atol=1e-14)
+    np.testing.assert_allclose(R_p[9:, four].T, T_own[:, :3, 3], atol=1e-14)
+    np.testing.assert_allclose(J.T, J_own.reshape(LANES, 6 * m), atol=1e-14)
+    assert (np.delete(R_p, four, axis=1) == 77).all()
 
 
 @njit

@@ -33,8 +33,9 @@ def client(cluster):
         yield made
 
 
-def test_workers_give_the_same_bytes(client):
-    assert bits(run(SWEEP, chunk=2000, executor=client)) == bits(run(SWEEP))
+@pytest.mark.parametrize("chunk", [10, 2000])
+def test_workers_give_the_same_bytes(client, chunk):
+    assert bits(run(SWEEP, chunk=chunk, executor=client, workers=2)) == bits(run(SWEEP))
 
 
 def test_a_worker_that_dies_costs_its_part_alone(client):

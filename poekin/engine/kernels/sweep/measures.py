@@ -76,12 +76,12 @@ def _singular(measure, scale, outputs, W, values):
 
 
 def measure_coordinates(measure, numbers, q, values):
-    """Measures of a block of configurations by their coordinates."""
-    m = q.shape[1]
+    """Measures of a block of configurations, q (m, N), by their coordinates."""
+    m, count = q.shape
     kind = measure[KIND]
     if kind == TRAVEL:
-        for k in range(len(q)):
-            values[k] = joint_ranges.travel(q[k], numbers[:m], numbers[m:], m)
+        for k in range(count):
+            values[k] = joint_ranges.travel(q[:, k], numbers[:m], numbers[m:], m)
     elif kind == MARGIN:
-        for k in range(len(q)):
-            values[k] = joint_ranges.limit_margin(q[k], numbers[:m], numbers[m:], m)
+        for k in range(count):
+            values[k] = joint_ranges.limit_margin(q[:, k], numbers[:m], numbers[m:], m)

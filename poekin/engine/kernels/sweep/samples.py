@@ -17,10 +17,10 @@ _UNIT = 2.0**-53
 
 
 def write_samples(samples, bounds, first, q):
-    """Coordinates q (N, m) of samples `first`, first + 1 and so on."""
+    """Coordinates q (m, N) of samples `first`, first + 1 and so on."""
     if samples[KIND] == GRID:
-        for k in range(q.shape[0]):
-            write_grid(first + k, samples[COUNTS:], bounds, q[k])
+        for k in range(q.shape[1]):
+            write_grid(first + k, samples[COUNTS:], bounds, q[:, k])
     elif samples[KIND] == SOBOL:
         _write_sobol(samples[1:], first, bounds, q)
     else:
@@ -29,21 +29,35 @@ def write_samples(samples, bounds, first, q):
 
 def write_random(seed, first, bounds, q):
     """Evenly between the bounds."""
-    count, m = q.shape
+    m, count = q.shape
     start = mixed(seed)
-    for k in range(count):
-        for i in range(m):
-            q[k, i] = drawn(start, (first + k) * m + i + 1, bounds[0, i], bounds[1, i])
+    # a coordinate's states are an arithmetic progression, of which a loop takes several at once
+    step = np.uint64(m) * _STEP
+    for i in range(m):
+        lower = bounds[0, i]
+        width = bounds[1, i]
+        state = _state(start, first * m + i + 1)
+        for k in range(count):
+            q[i, k] = _between(state, lower, width)
+            state += step
 
 
 def drawn(start, number, lower, width):
     """Random number `number`, 1, 2 and so on, between lower and lower + width."""
-    return lower + width * _unit(mixed(start + np.uint64(number) * _STEP))
+    return _between(_state(start, number), lower, width)
+
+
+def _state(start, number):
+    return start + np.uint64(number) * _STEP
+
+
+def _between(state, lower, width):
+    return lower + width * _unit(mixed(state))
 
 
 def _write_sobol(numbers, first, bounds, q):
     """Evenly between the bounds: `numbers` are shifts (m) and direction numbers (m, 64)."""
-    count, m = q.shape
+    m, count = q.shape
     for i in range(m):
         v = numbers[m + _BITS * i :]
         bits = numbers[i]
@@ -55,7 +69,7 @@ def _write_sobol(numbers, first, bounds, q):
             gray >>= 1
             k += 1
         for j in range(count):
-            q[j, i] = bounds[0, i] + bounds[1, i] * _unit(np.uint64(bits))
+            q[i, j] = bounds[0, i] + bounds[1, i] * _unit(np.uint64(bits))
             bits ^= v[_lowest_zero(first + j)]
 
 

@@ -41,12 +41,15 @@ FINE = 2.0**40
 _LARGEST = 2.0**62
 
 
-def _write_cells(cells, place, R_p, found, first):
-    """Cells of four poses, R_p (12, LANES) their numbers, from found[first] on."""
-    for lane in range(LANES):
-        p = (R_p[9, lane], R_p[10, lane], R_p[11, lane])
-        axis = (R_p[2, lane], R_p[5, lane], R_p[8, lane])
-        found[first + lane] = cell_of(cells, place, p, axis)
+def _write_cells(cells, place, R_p, found):
+    """Cells of a block of poses, R_p (12, BLOCK) their numbers."""
+    # known beforehand, so that the loop takes several poses at once
+    shape = (cells[0], cells[1], cells[2], cells[3])
+    corner = (place[0], place[1], place[2], place[3])
+    for k in range(BLOCK):
+        p = (R_p[9, k], R_p[10, k], R_p[11, k])
+        axis = (R_p[2, k], R_p[5, k], R_p[8, k])
+        found[k] = cell_of(shape, corner, p, axis)
 
 
 @kernel("int int int i1 r2 i1 r1 i1 r1 i1 r1 n1 w1 n1 n1", returns="int", portable=True)
@@ -81,10 +84,10 @@ def swept(
     best = without_refcount(best)
     attained = without_refcount(attained)
     sums = without_refcount(sums)
-    q = np.empty((BLOCK, bounds.shape[1]))
+    q = np.empty((bounds.shape[1], BLOCK))
     sines = np.empty((sines_room(arm), BLOCK))
     cosines = np.empty((sines_room(arm), BLOCK))
-    R_p = np.empty((12, LANES))
+    R_p = np.empty((12, BLOCK))
     every = np.empty((measure[OUTPUTS] + 3 * len(radii), LANES))
     outputs = every[: measure[OUTPUTS]]
     centres = every[measure[OUTPUTS] :]
@@ -103,8 +106,6 @@ def swept(
         sines_of_block(arm, q, sines, cosines)
         for k in range(0, BLOCK, LANES):
             run_columns(arm, sines, cosines, k, q, R_p, every)
-            if is_spatial:
-                _write_cells(cells, place, R_p, found, k)
             if is_root:
                 for lane in range(LANES):
                     values[k + lane] = outputs[0, lane]
@@ -118,7 +119,9 @@ def swept(
                 values[k] = root(values[k])
         elif kind in OF_COORDINATES:
             measure_coordinates(measure, numbers, q, values)
-        if not is_spatial:
+        if is_spatial:
+            _write_cells(cells, place, R_p, found)
+        else:
             _write_bins(cells, place, values, found)
         begin = max(first - start, 0)
         end = min(last - start, BLOCK)
@@ -214,7 +217,7 @@ def _write_bins(cells, place, values, found):
 def sampled(numbers, samples, bounds, q):
     """Configurations q (N, m) of samples by their numbers."""
     for k in range(len(numbers)):
-        write_samples(samples, bounds, numbers[k], q[k : k + 1])
+        write_samples(samples, bounds, numbers[k], q[k].reshape(-1, 1))
 
 
 @kernel("r3 i1 r1 n1", portable=True)

@@ -51,7 +51,7 @@ def device_code(word: str, real: Real, dof: int) -> DeviceCode:
             Argument(WORD),
             Argument(INT),
             Argument(CTable(2, dof)),
-            Argument(CTable(1, dof)),
+            Argument(CTable(dof, 1)),
         ],
         tiles.cell_of: [Argument(CTuple((INT,) * 4)), Argument(CRow(4)), point, point],
         root.root: [Argument(DOUBLE)],

@@ -29,15 +29,15 @@ def test_a_sum_of_roots_is_of_the_outputs_above_zero():
     [(measures.TRAVEL, joint_ranges.travel), (measures.MARGIN, joint_ranges.limit_margin)],
 )
 def test_a_measure_of_coordinates_is_its_formula_of_references_and_weights(kind, formula):
-    q = RNG.uniform(-1, 1, (7, 3))
+    q = RNG.uniform(-1, 1, (3, 7))
     numbers = RNG.uniform(0.5, 2, 6)
     values = np.full(7, 77.0)
     measures.measure_coordinates((kind, 1, 0, 0, 0), numbers, q, values)
-    assert values.tolist() == [formula(row, numbers[:3], numbers[3:], 3) for row in q]
+    assert values.tolist() == [formula(column, numbers[:3], numbers[3:], 3) for column in q.T]
 
 
 def test_a_kind_of_no_coordinates_measures_none():
     values = np.full(2, 77.0)
     for kind in (measures.NONE, *measures.OF_OUTPUTS):
-        measures.measure_coordinates((kind, 1, 0, 0, 0), np.ones(2), np.ones((2, 1)), values)
+        measures.measure_coordinates((kind, 1, 0, 0, 0), np.ones(2), np.ones((1, 2)), values)
     assert values.tolist() == [77, 77]

@@ -17,10 +17,10 @@ NUMBERS = st.integers(0, 2**40)
 
 
 def written(said, first: int, count: int = 3) -> np.ndarray:
-    q = np.full((count, 3), np.nan)
+    q = np.full((3, count), np.nan)
     with np.errstate(over="ignore"):  # of unsigned numbers, as it is meant
         samples.write_samples(np.array(said), BOUNDS, first, q)
-    return q
+    return q.T
 
 
 @given(st.integers(0, 2**62 - 1), NUMBERS)

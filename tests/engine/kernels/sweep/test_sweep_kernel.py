@@ -97,13 +97,13 @@ def test_bins_begin_at_their_place_and_what_is_before_or_behind_them_is_in_none(
     assert not found.any()
 
 
-def test_cells_of_four_poses_are_those_of_their_places_and_z_axes():
+@pytest.mark.parametrize("side", [0, 2])
+def test_cells_of_a_block_of_poses_are_those_of_their_places_and_z_axes(side):
     rng = np.random.default_rng(0)
-    R_p = rng.uniform(-1, 1, (12, kernel.LANES))
-    found = np.full(8, 77)
-    cells, place = (2, 4, 4, 4), (-1.0, -1.0, -1.0, 2.0)
-    kernel._write_cells(cells, place, R_p, found, 3)
-    for lane in range(kernel.LANES):
-        R, p = R_p[:9, lane].reshape(3, 3), R_p[9:, lane]
-        assert found[3 + lane] == cell_of(cells, place, p, R[:, 2])
-    assert found[[0, 1, 2, 7]].tolist() == [77] * 4
+    R_p = rng.uniform(-1.1, 1.1, (12, kernel.BLOCK))
+    found = np.full(kernel.BLOCK, 77)
+    cells, place = (side, 4, 5, 6), (-1.0, -0.9, -1.1, 2.5)
+    kernel._write_cells(cells, place, R_p, found)
+    for k in range(kernel.BLOCK):
+        R, p = R_p[:9, k].reshape(3, 3), R_p[9:, k]
+        assert found[k] == cell_of(cells, place, p, R[:, 2])
