@@ -12,7 +12,7 @@ from poekin.formulas.ik import circle_conic
 
 def parallel(a, b) -> float:
     """Sine of the angle between two vectors."""
-    return np.linalg.norm(np.cross(a, b)) / (np.linalg.norm(a) * np.linalg.norm(b))
+    return float(np.linalg.norm(np.cross(a, b)) / (np.linalg.norm(a) * np.linalg.norm(b)))
 
 
 def test_two_lines_are_found_in_their_conic_whichever_entry_of_their_meeting_point_is_the_largest():
