@@ -65,7 +65,8 @@ class Instant:
     def __init__(self) -> None:
         self.samples: list[int] = []
 
-    def submit(self, function, pickled, first, last):
+    def submit(self, function, /, *arguments):
+        pickled, first, last = arguments
         part, seconds = function(pickled, first, last)
         assert 0 < seconds < 60
         self.samples.append(last - first)
