@@ -33,6 +33,15 @@ def test_two_lines_are_found_in_their_conic_whichever_entry_of_their_meeting_poi
     assert largest == {0, 1, 2}
 
 
+@pytest.mark.parametrize("turns", range(3))
+def test_two_lines_are_found_where_they_meet_on_an_axis_of_which_the_other_entries_are_0(turns):
+    g, h = np.roll([[0.9, 0.3, 0.0], [-0.4, 0.7, 0.0]], turns, axis=1)
+    M = 0.5 * (np.outer(g, h) + np.outer(h, g))
+    found = circle_conic._lines((M[0, 0], M[0, 1], M[1, 1], M[0, 2], M[1, 2], M[2, 2]))
+    apart = [min(parallel(line, g), parallel(line, h)) for line in found]
+    assert max(apart) <= 1e-14  # some ten roundings of numbers below 1
+
+
 @pytest.mark.parametrize("lengths", list(permutations((1.0, 2.0, 3.0))))
 def test_the_longest_of_three_is_taken_in_any_order(lengths):
     a, b, c = [(0.0, -x, 0.5 * x) for x in lengths]
