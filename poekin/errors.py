@@ -92,9 +92,9 @@ def quote(name: object, width: int = 80) -> str:
     return f"'{escape_unprintable(name, width)}'"
 
 
-def safe_repr(value: object, width: int = 80) -> str:
-    """`repr` of a value, its unprintable characters escaped, cut at `width`."""
-    return escape_unprintable(repr(value), width)
+def safe_repr(value: object) -> str:
+    """`repr` of a value, its unprintable characters escaped, cut at 80."""
+    return escape_unprintable(repr(value), 80)
 
 
 def show_numbers(values: Iterable[float]) -> str:

@@ -67,8 +67,17 @@ class Result:
     def __str__(self) -> str:
         return self.summary()
 
+    def __repr__(self) -> str:
+        first, *_ = self.summary().split("\n")
+        return brief(self, first)
+
     def _repr_html_(self) -> str:
         return element("pre", text(self.summary()))
+
+
+def brief(value: object, words: str) -> str:
+    """One line that stands for a value of many numbers."""
+    return f"<{type(value).__name__}: {words}>"
 
 
 def plain(value: object) -> object:

@@ -4,9 +4,13 @@ number.
 
 from __future__ import annotations
 
+import ast
 import dataclasses
 import importlib
+import inspect
 import re
+from collections.abc import Callable
+from typing import Any
 
 ARRAYS = re.compile(r"\b(Array|Marks|ndarray|Any)\b")
 
@@ -35,3 +39,15 @@ def frozen_and_equal_only_where_its_parts_can_be(kind: type) -> bool:
     arrays = any(ARRAYS.search(said) for said in parts)
     parameters = kind.__dataclass_params__  # type: ignore[attr-defined]
     return (parameters.frozen, parameters.eq) == (True, not arrays)
+
+
+def defaults_are_those_of_the_docstring(function: Callable[..., Any]) -> bool:
+    """Whether the defaults that a docstring states, none of them in vain, are those that hold."""
+    stated: dict[str, object] = {}
+    for names, value in re.findall(
+        r"^ *([\w, ]+) : .*default (\S+)$", function.__doc__ or "", re.M
+    ):
+        stated |= dict.fromkeys(names.split(", "), ast.literal_eval(value))
+    assert stated, function
+    parameters = inspect.signature(function).parameters
+    return stated == {name: parameters[name].default for name in stated}

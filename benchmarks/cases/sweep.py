@@ -1,4 +1,6 @@
-"""Maps of a workspace: time a sample beside the compiled batch, threads, and a hundred million samples."""
+"""Maps of a workspace: time a sample beside the compiled batch, threads, a hundred million samples, and a
+million poses by inverse kinematics.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +12,7 @@ import numpy as np
 import poekin as pk
 from poekin.model.chain import Chain
 from poekin.sweep import Cells, Random, Sweep, SweepMap, run
+from poekin.sweep.samples import Samples
 
 from ..harness import Case, Timed, in_turn, ratio
 from ..report import Figure, Table, Topic, short
@@ -17,7 +20,9 @@ from ..workers import processors
 
 SEED, COUNT, JUDGED = 3, 200_000, 2000
 WHOLE, QUICK_WHOLE = 100_000_000, 1_000_000
+POSES, QUICK_POSES = 1_000_000, 20_000
 SAMPLE_BAR, BATCH_BAR, THREADS_BAR, WHOLE_BAR = 60.0, 1.6, 0.55, 8.0  # ns, ratios, s
+POSES_BAR = 10.0  # s
 BATCH = "compiled batch, pose and Jacobian into arrays"
 MANIPULABILITY = "sweep: pose, manipulability, cube"
 REACH = "sweep: pose, cube"
@@ -45,7 +50,7 @@ def error(sweep: Sweep, found: SweepMap) -> float:
     """Share of the first samples that single configurations put into a cell that has none, or, of
     the measure, the largest difference from that of singular values.
     """
-    q = sweep.samples.configurations(np.arange(JUDGED))
+    q = _judged(sweep)
     T = sweep.chain.fk(q)
     lost = float(np.mean((found.query(T) == 0) & (found.cells.find(T) >= 0)))
     if found.best is None:
@@ -56,6 +61,12 @@ def error(sweep: Sweep, found: SweepMap) -> float:
     own = pk.manipulability(sweep.chain, attained).pose.yoshikawa
     off = np.nan_to_num(np.abs(best - own), nan=np.inf)
     return max(lost, float(off.max()))
+
+
+def _judged(sweep: Sweep) -> np.ndarray:
+    """The first configurations (JUDGED, m)."""
+    assert isinstance(sweep.samples, Samples)
+    return sweep.samples.configurations(np.arange(JUDGED))
 
 
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
@@ -73,6 +84,8 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         figures.append(_threads(chain))
         say("threads")
     figures.append(_whole(chain, QUICK_WHOLE if quick else WHOLE))
+    say("a whole map")
+    figures.append(_poses(QUICK_POSES if quick else POSES))
     rows = [(one.name, 1e9 * one.time.median / COUNT, short(one.error)) for one in timed]
     return Topic(
         "Maps of a workspace",
@@ -154,4 +167,24 @@ def _whole(chain: Chain, count: int) -> Figure:
         f"{count} samples, cubes of 50 mm, 192 directions, {processors()} threads", seconds,
         WHOLE_BAR if count == WHOLE else None, "s",
         note=f"{100 * found.new_cell_chance:.2g} % of further samples would fall into an empty cell",
+    )  # fmt: skip
+
+
+def _poses(count: int) -> Figure:
+    """A map by all solutions of the inverse kinematics of each pose, by the wall clock; its error is the
+    largest difference of reached poses from those of their best solutions.
+    """
+    chain = pk.load("ur5e").chain(tip="tool0")
+    start = time.perf_counter()
+    found = pk.sweep.reach(chain, samples=count, by="poses", measure="solutions", seed=SEED)
+    seconds = time.perf_counter() - start
+    cells = np.flatnonzero(found.counts)[:JUDGED]
+    T = found.poses().reshape(-1, 4, 4)[cells]
+    off = np.abs(chain.fk(found.configurations().reshape(-1, chain.dof)[cells]) - T)
+    share = found.counts.sum() / count
+    most = int(np.nanmax(np.asarray(found.best)))
+    return Figure(
+        f"UR5e: {count} poses by all solutions of the inverse kinematics, {processors()} threads", seconds,
+        POSES_BAR if count == POSES else None, "s", error=short(float(off.max())),
+        note=f"{100 * share:.3g} % are reached, with up to {most} solutions",
     )  # fmt: skip

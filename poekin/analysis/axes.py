@@ -27,8 +27,6 @@ from .axis_lines import (
 )
 from .shapes import Shape, ShapeKind, shapes
 
-__all__ = ["AxesReport", "AxisPair", "axes"]
-
 
 @dataclass(frozen=True)
 class AxisPair(Result):
@@ -166,7 +164,7 @@ def axes(
         Arm to look at.
     tol_position : float, default 1e-5
         Distance up to which axes intersect, m.
-    tol_rotation : float, default 1.75e-5
+    tol_rotation : float, default π/180000
         Angle up to which they are parallel or perpendicular, rad (0.001 degrees).
 
     Returns

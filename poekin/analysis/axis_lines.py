@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..groups.arrays import Array
 from ..groups.vectors import angular_part, applied, linear_part, norm
 from ..model.chain import Chain
+from ..model.chain_data import ChainData
 from ..model.readings.coupled import own_limits
 
 Marks = NDArray[np.bool_]
@@ -37,7 +38,7 @@ def cross(x: Array, y: Array) -> Array:
     return ahead - x[..., _LAST] * y[..., _NEXT]
 
 
-def prismatic(chain: Chain) -> Marks:
+def prismatic(chain: ChainData) -> Marks:
     """Whether each joint is prismatic (n)."""
     slides = [kind == "prismatic" for kind in chain.kinds]
     return np.array(slides, bool)

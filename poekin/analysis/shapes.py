@@ -16,8 +16,6 @@ from ..results import Result
 from .amounts import amount
 from .axis_lines import Tolerances, distance_to_line, line_angle, nearest_point, place
 
-__all__ = ["Shape", "ShapeKind", "shapes"]
-
 ShapeKind = Literal[
     "spherical wrist",
     "spherical shoulder",

@@ -10,6 +10,7 @@ import typer
 from . import conform, warm
 from . import list as names
 from .calibration import apply, calibrate, choose_poses
+from .calibration.circles import from_circles
 from .kinematics import fk, follow, ik, jacobian, singularity
 from .model import takes_models
 from .models import axes, compare, count, dh, emit, info, urdf, validate, view
@@ -24,15 +25,15 @@ app = typer.Typer(
 
 COMMANDS: tuple[ModuleType, ...] = (
     *(info, fk, jacobian, singularity, ik, follow, calibrate, choose_poses, apply, validate, urdf),
-    *(compare, view, conform, axes, dh, count, emit, names, warm),
+    *(from_circles, compare, view, conform, axes, dh, count, emit, names, warm),
 )
-# Unknown options of these pass through to q, so that -0.5 is a number; there are no one-letter
-# options that it could be.
+# Unknown options of these pass through to q, so that -0.5 is a number; no number has the letter of
+# their one-letter option, -o.
 TAKE_NUMBERS = (fk, jacobian, singularity, ik)
 
 for module in COMMANDS:
     run = module.command
-    if module not in (conform, names, warm):
+    if module not in (conform, names, warm, from_circles):
         run = takes_models(run)
     settings = {"ignore_unknown_options": module in TAKE_NUMBERS}
     name = module.__name__.rpartition(".")[2].replace("_", "-")

@@ -69,8 +69,8 @@ class _Run:
     Fields: arguments, the values of --xacro-arg, None without --xacro; coupling, those of
     --coupling; options, what parameters that are options are called; arms, those of --arm, and
     arms_taken, how many files have taken one; arm_files, the arguments that may be files of several
-    arms and are not read yet; stdin, what standard input was read for; digests, the SHA-256 of what
-    came through a pipe, which can be read once only, by the name of the argument.
+    arms and are not read yet; stdin, what standard input was read for; piped, what came through a
+    pipe, which can be read once only, by the name of the argument.
     """
 
     arguments: dict[str, str] | None = None
@@ -80,7 +80,7 @@ class _Run:
     arms_taken: int = 0
     arm_files: list[str] = field(default_factory=list)
     stdin: str = ""
-    digests: dict[str, str] = field(default_factory=dict)
+    piped: dict[str, bytes] = field(default_factory=dict)
 
 
 _current: ContextVar[_Run | None] = ContextVar("run of a command", default=None)
@@ -176,14 +176,26 @@ def called(file: str) -> str:
 
 def origin(file: str) -> str:
     """Words for where a model came from: the file, or pipe, with its checksum; none of a name."""
-    digest = _run().digests.get(file)
-    if digest:
+    piped = _run().piped.get(file)
+    if piped is not None:
         kind = STANDARD_INPUT if file in STDIN else "a pipe"
-        return f"{kind} with the SHA-256 {digest}"
+        return f"{kind} with the SHA-256 {_sha256(piped)}"
     path = Path(compressed.split(packages.local_path(file))[0])
     if not path.is_file():
         return ""
     return f"file {path.name} with the SHA-256 {_sha256(path.read_bytes())}"
+
+
+def content(file: str) -> bytes:
+    """Decompressed content of a FILE argument of which the model was read; none of a name."""
+    piped = _run().piped.get(file)
+    if piped is not None:
+        return compressed.decompress(piped, called(file))
+    path = packages.local_path(file)
+    archive, _ = compressed.split(path)
+    if not os.path.isfile(archive):
+        return b""
+    return compressed.read(path)
 
 
 def take_stdin(what: str) -> None:
@@ -219,7 +231,7 @@ def _piped(file: str) -> bytes:
         content = pipes.read_stream(sys.stdin.buffer, STANDARD_INPUT)
     else:
         content = pipes.read(file)
-    _run().digests[file] = _sha256(content)
+    _run().piped[file] = content
     return content
 
 

@@ -42,7 +42,7 @@ def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = (
     last: tuple[int, ...] = (m,)
     if tail and tail in (shape, shape[1:]):
         last = tail
-    if shape != last and (len(shape) != 1 + len(last) or shape[1:] != last):
+    if last not in (shape, shape[1:]):
         raise InputError(f"{where}: an array of shape (N, {m}) expected, got {shape}")
     count = math.prod(shape)
     needed = count * dtype.itemsize

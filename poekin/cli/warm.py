@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import time
 
-import typer
-
 from ..engine.warm import kernels
 from ..errors import FileError
 from ..progress_line import ProgressLine
@@ -42,4 +40,3 @@ def command(json: Json = False) -> None:
     else:
         size = sum(entry.stat().st_size for entry in kept) / cache.MIB
         say(f"{len(found)} kernels in {path_text(place)}, {size:.1f} MiB, {seconds:.0f} s")
-    raise typer.Exit(0)

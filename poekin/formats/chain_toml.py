@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import ModelError, PoekinError
+from ..errors import ModelError, PoekinError, join_names
 from ..model.chain import Chain
+from ..model.provenance import warn
 from ..model.robot import Robot
 from .serial import serial_robot
 from .text import toml_text, xml
@@ -21,6 +22,10 @@ VERSION = 1
 NOMINAL = "nominal"
 CALIBRATED = "calibrated"
 """Keys of the nominal and of the calibrated chain in the file of a calibration."""
+TERMS = "the calibration has non-geometric terms"
+"""What a warning says first where the calibrated chain is not all of a calibration."""
+GEOMETRIC = ("screws", "home", "offsets", "gains", "pitch")
+"""Kinds of parameters that a chain has; all others are terms of the readings."""
 _NAMES = ("base", "tip", "joint_names", "q_names")
 _ARRAYS = ("screws", "home", "limits", "offset")
 _LIMITS = ("velocity_limits", "joint_limits", "joint_velocity_limits")
@@ -99,6 +104,18 @@ def is_calibration(path: FilePath) -> bool:
         return False
 
 
+def _warn_of_terms(keys: Keys) -> None:
+    """Warns where the calibrated chain takes other values than the readings."""
+    if "kinds" not in keys.data:
+        return
+    terms = [kind for kind in keys.texts("kinds") if kind not in GEOMETRIC]
+    if terms:
+        warn(
+            f"{keys.place}: {TERMS} ({join_names(terms)}): the arm takes true joint values, not readings;"
+            " pk.calibration.load(path) has true_joints, compensate and emit for these"
+        )
+
+
 def opened(path: FilePath) -> Keys:
     """The file of a calibration, of a version that is known. Raises: FileError; ModelError with
     file and key.
@@ -121,9 +138,10 @@ def opened_text(text: str, place: str) -> Keys:
 def read_chains(path: FilePath) -> tuple[Chain | None, Chain]:
     """The nominal and the calibrated chain in the file of a calibration, None without a nominal one.
 
-    Raises: FileError; ModelError with file and key.
+    Raises: FileError; ModelError with file and key. Warns: where there are non-geometric terms.
     """
     keys = opened(path)
+    _warn_of_terms(keys)
     nominal = None
     if NOMINAL in keys.data:
         nominal = to_chain(keys.table(NOMINAL))
@@ -134,7 +152,7 @@ def read(path: FilePath) -> Robot:
     """The robot of one branch that moves as the calibrated chain in the file of a calibration.
 
     Raises: FileError; ModelError with file and key. Warns: as `serial_robot`, where q is not that
-    of the chain.
+    of the chain; where there are non-geometric terms.
     """
     return read_text(*xml.read_text(path))
 
@@ -143,6 +161,7 @@ def read_text(text: str, place: str) -> Robot:
     """The robot in the text of such a file. Raises and warns: as `read`."""
     keys = opened_text(text, place)
     chain = to_chain(keys.table(CALIBRATED))
+    _warn_of_terms(keys)
     try:
         return serial_robot(chain)
     except PoekinError as fault:

@@ -66,7 +66,8 @@ def load(name: FilePath) -> Robot:
     Warns
     -----
     PoekinWarning
-        For what was repaired in the file, with file and line.
+        For what was repaired in the file, with file and line; where a calibration has terms that a
+        robot has not.
 
     Notes
     -----

@@ -8,6 +8,7 @@ constant, a master, a follower.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,7 @@ from ..model.provenance import warn
 from ..model.readings.coupled import own_limits, own_readings, own_speeds
 from ..model.readings.statements import make_statements
 from ..model.robot import Robot
+from ..model.tree.link_masses import LinkMass, is_mass
 from .common.limits import UNBOUNDED, Interval
 from .common.names import free_name
 
@@ -91,7 +93,7 @@ def serial_robot(chain: Arm) -> Robot:
     fixed = free_name(f"{chain.tip}_joint", set(chain.joint_names))
     origin = chain.local.frames[-1]
     joints.append(Joint(fixed, "fixed", links[-2], links[-1], origin))
-    robot = Robot(name, links, joints)
+    robot = Robot(name, links, joints, masses=_masses(chain, links[1:-1]))
     if list(robot.q_names) != masters:
         changes.append(f"the order is {', '.join(map(quote, robot.q_names))}")
     if changes:
@@ -100,6 +102,24 @@ def serial_robot(chain: Arm) -> Robot:
             + "; ".join(changes)
         )
     return robot
+
+
+def _masses(chain: Chain, links: Sequence[str]) -> list[LinkMass]:
+    """Masses of the links that joints move; none where a link cannot have one of them."""
+    if chain.masses is None:
+        return []
+    found = []
+    T = np.eye(4)
+    frames = chain.local.frames[:-1]
+    for link, frame, row in zip(links, frames, chain.masses, strict=True):
+        T = T @ frame
+        mass, *centre = row.tolist()
+        x, y, z, _ = se3.inverse(T) @ [*centre, 1.0]
+        if mass:
+            found.append(LinkMass(link, mass, (float(x), float(y), float(z))))
+    if all(is_mass(own.mass, own.centre) for own in found):
+        return found
+    return []
 
 
 def _joint(

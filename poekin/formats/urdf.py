@@ -76,6 +76,7 @@ class Repairs(NamedTuple):
     mimics: list[Repair]
     doubles: list[Repair]
     quaternions: list[Repair]
+    angles: list[Repair]
 
 
 def read(path: FilePath) -> Robot:
@@ -117,7 +118,7 @@ def read_text(
     links = top.all("link")
     if not links:
         raise top.fault("expected at least one <link>, there is none")
-    repairs = Repairs([], [], [], [], [])
+    repairs = Repairs([], [], [], [], [], [])
     quaternions = reads_quaternions(root.get("version"))
     elements = top.all("joint")
     joints = [_joint(fields, repairs, quaternions) for fields in elements]
@@ -200,13 +201,16 @@ def origin_of(
     if max(map(abs, xyz)) > LONGEST:
         raise element.fault(f"xyz: expected lengths of at most {LONGEST:g} m, got {xyz}")
     turns = element.vector("rpy")
+    if repairs is not None and max(map(abs, turns or _ZERO)) > math.tau:
+        text = f"{element.what}: rpy is more than a turn: degrees? Expected are rad"
+        repairs.angles.append(Repair(element.line, text))
     turn = element.numbers("quat_xyzw", 4)
-    if turn is None:
-        return rpy.pose(xyz, turns or _ZERO)
-    if not quaternions:
+    if turn is not None and not quaternions:
+        turn = None
         if repairs is not None:
             text = f'{element.what}: quat_xyzw is not read: it needs <robot version="1.1">'
             repairs.quaternions.append(Repair(element.line, text))
+    if turn is None:
         return rpy.pose(xyz, turns or _ZERO)
     if turns is not None:
         raise element.fault("either rpy or quat_xyzw expected, got both")
@@ -322,6 +326,7 @@ def _warn(repairs: Repairs, source: Source) -> None:
         (repairs.mimics, ", and stays independent"),
         (repairs.doubles, ""),
         (repairs.quaternions, ""),
+        (repairs.angles, ""),
     ):
         if found:
             first = found[0]

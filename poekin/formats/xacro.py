@@ -12,7 +12,15 @@ from types import ModuleType
 from typing import Any
 from xml.parsers.expat import ExpatError
 
-from ..errors import InputError, MissingExtra, ModelError, escape_unprintable, safe_repr
+from ..errors import (
+    InputError,
+    MissingExtra,
+    ModelError,
+    escape_unprintable,
+    quote,
+    safe_repr,
+    suggest,
+)
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import urdf
@@ -64,7 +72,8 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
     Warns
     -----
     PoekinWarning
-        For what xacro warns of, and for what was repaired in the URDF.
+        For what xacro warns of, for arguments that the file has not, and for what was repaired in
+        the URDF.
     """
     path = packages.local_path(path)
     data = xml.read_bytes(path)
@@ -131,11 +140,12 @@ def _evaluated(
         ExpatError,
     )
     said = io.StringIO()
+    given = _Arguments(values)
     try:
         with _one_at_a_time, _packages_of(name, xacrodoc.packages), redirect_stderr(said):
             result = xacrodoc.XacroDoc.from_string(
                 text,
-                subargs=values,
+                subargs=given,
                 resolve_packages=False,
             ).dom.toxml()
     except refusals as fault:
@@ -145,7 +155,28 @@ def _evaluated(
             warn(
                 f"{Source(name).place()}: xacro: {escape_unprintable(line.removeprefix('warning: '), 400)}"
             )
+    for key in values.keys() - given.asked:
+        warn(
+            f"{Source(name).place()}: xacro: it has no <xacro:arg> {quote(key)};"
+            f" {suggest(key, sorted(given.asked))}"
+        )
     return result
+
+
+class _Arguments(dict[str, str]):
+    """Values of arguments, and the names that xacro asks for."""
+
+    def __init__(self, values: dict[str, str]) -> None:
+        super().__init__(values)
+        self.asked: set[str] = set()
+
+    def __contains__(self, name: object) -> bool:
+        self.asked.add(str(name))
+        return super().__contains__(name)
+
+    def __getitem__(self, name: str) -> str:
+        self.asked.add(name)
+        return super().__getitem__(name)
 
 
 def _evaluators() -> tuple[ModuleType, ModuleType]:

@@ -25,6 +25,7 @@ REMEDIES = (
     ((6,), (4, 4), "pk.se3.log of a pose is its twist, pk.se3.vee of a matrix [xi] is xi"),
     ((4, 4), (3, 3), "pk.se3.pose(R, p) makes a pose of a rotation and a translation"),
     ((4, 4), (6,), "pk.se3.exp of a twist is a pose"),
+    ((4, 4), (3,), "pk.se3.pose(np.eye(3), p) makes a pose of a position"),
     ((3, 3), (4, 4), "the rotation of a pose is T[..., :3, :3]"),
     ((3, 3), (3, 4), "of three rows of a pose, the rotation is T[..., :3, :3]"),
     ((4, 4), (3, 4), "to three rows of a pose, add the row 0 0 0 1"),
@@ -47,9 +48,8 @@ def numbers(values: ArrayLike, what: str) -> Array:
             f"{what}: expected an array of numbers, got rows of different lengths"
         ) from error
     if array.dtype.kind not in "fiu":
-        raise InputError(
-            f"{what}: expected real numbers, got {array.dtype.name} ({type(values).__name__})"
-        )
+        kind = "text" if array.dtype.kind in "US" else array.dtype.name
+        raise InputError(f"{what}: expected real numbers, got {kind} ({type(values).__name__})")
     return array.astype(np.float64, copy=False)
 
 

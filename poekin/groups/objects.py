@@ -68,7 +68,7 @@ def plain(values: Any, what: str) -> Any:
 
 
 def _plain_items(values: list[Any] | tuple[Any, ...], what: str) -> Any:
-    if set(map(type, values)) <= _NUMBERS:
+    if _NUMBERS.issuperset(map(type, values)):
         return values
     for value in values:
         _check_unmasked(value, what)

@@ -381,8 +381,8 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates, Cha
 
         Raises
         ------
-        ValueError
-            If NumPy refuses the seed or the size.
+        InputError
+            If seed or size is no whole number from 0 on, or hardly a q keeps joint_limits.
 
         Notes
         -----

@@ -54,8 +54,8 @@ class Mimic:
 
     def __post_init__(self) -> None:
         _name(self.joint, "mimic: joint")
-        _set(self, "multiplier", _finite((self.multiplier,), 1, "mimic: multiplier")[0])
-        _set(self, "offset", _finite((self.offset,), 1, "mimic: offset")[0])
+        _set(self, "multiplier", _number(self.multiplier, "mimic: multiplier"))
+        _set(self, "offset", _number(self.offset, "mimic: offset"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,8 +98,7 @@ class SafetyController:
     def __post_init__(self) -> None:
         for field in fields(self):
             what = f"safety_controller: {field.name}"
-            (number,) = _finite((getattr(self, field.name),), 1, what)
-            _set(self, field.name, number)
+            _set(self, field.name, _number(getattr(self, field.name), what))
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,7 +194,7 @@ class Joint:
         if self.kind != "continuous":
             limits = _interval(self.limits)
         _set(self, "limits", limits)
-        _set(self, "pitch", _finite((self.pitch,), 1, "pitch")[0])
+        _set(self, "pitch", _number(self.pitch, "pitch"))
         if abs(self.pitch) > LONGEST:
             raise ModelError(f"pitch: expected at most {LONGEST:g} m per rad, got {self.pitch:g}")
         if self.pitch and self.kind != "helical":
@@ -274,6 +273,11 @@ def _finite(values: Any, count: int, what: str) -> tuple[float, ...]:
     ) from fault
 
 
+def _number(value: Any, what: str) -> float:
+    (number,) = _finite((value,), 1, what)
+    return number
+
+
 def _bound(value: Any, what: str) -> float:
     """Bound of a rate or a force: positive, infinite where there is none."""
     fault = None
@@ -290,7 +294,7 @@ def _bound(value: Any, what: str) -> float:
 
 def _loss(value: Any, what: str) -> float:
     """Coefficient of damping or friction: finite, not negative."""
-    (loss,) = _finite((value,), 1, what)
+    loss = _number(value, what)
     if loss < 0:
         raise ModelError(f"{what}: expected no negative number, got {safe_repr(value)}")
     return loss + 0.0

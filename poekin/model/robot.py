@@ -211,8 +211,8 @@ class Robot:
         UnknownName
             If a link is unknown, with the closest names.
         InputError
-            If tip is left out and there are several leaves, which it lists; or if the matrix C of a
-            coupled chain would have more than 64 million entries.
+            If tip is left out and there are several leaves, which it lists, or the only one is the
+            base; or if the matrix C of a coupled chain would have more than 64 million entries.
         ModelError
             If a floating or planar joint is on the way.
 
@@ -229,7 +229,7 @@ class Robot:
         """
         base = self.root if base is None else base
         if tip is None:
-            tip = only_leaf(self._parts, self.leaves)
+            tip = only_leaf(self._parts, self.leaves, base)
         screws, home, options = chain_between(self._parts, base, tip)
         chain = Chain.from_space(screws, home, **options)
         if self._parts.readings is None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
+from ..checks import whole
 from ..errors import InputError
 from ..groups.arrays import Array
 from .chain_data import ChainData
@@ -22,11 +25,12 @@ def random(
     """Configurations (*size, m) drawn uniformly from what of `sampling_range` keeps the joints
     within their own limits. Raises: InputError where next to nothing does.
     """
-    rng = np.random.default_rng(rng)
-    size = (size,) if isinstance(size, (int, np.integer)) else tuple(size)
+    rng = _generator(rng)
+    lengths = size if isinstance(size, Sequence) else (size,)
+    shape = tuple(whole(length, "size", 0) for length in lengths)
     low, high = sampling_range(chain)
     width = high - low
-    q = low + width * rng.random((*size, chain.dof))
+    q = low + width * rng.random((*shape, chain.dof))
     for _ in range(DRAWS):
         beyond = beyond_own_limits(chain, q).any(axis=-1)
         if not beyond.any():
@@ -37,6 +41,12 @@ def random(
         f"random: of {DRAWS} draws within the coordinates' limits, none keeps the joints within "
         "their own: joint_limits"
     )
+
+
+def _generator(rng: np.random.Generator | int) -> np.random.Generator:
+    if isinstance(rng, np.random.Generator):
+        return rng
+    return np.random.default_rng(whole(rng, "rng, as a seed", 0))
 
 
 def sampling_range(chain: ChainData) -> tuple[Array, Array]:

@@ -15,7 +15,7 @@ from ..model.coordinates import coordinates
 
 def per_coordinate(value: Any, chain: Chain, what: str) -> Array:
     """A positive number for each coordinate. Raises: InputError, ShapeError, UnknownName."""
-    if not isinstance(value, Mapping) and numbers(value, what).ndim == 0:
+    if not isinstance(value, Mapping) and not numbers(value, what).ndim:
         value = np.full(chain.dof, float(value))
     array = coordinates(value, chain.q_names, what)
     if array.ndim != 1:

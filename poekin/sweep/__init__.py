@@ -1,11 +1,10 @@
-"""Maps over many configurations: where a tool can be, from which directions, and how well it moves
+"""Maps over many configurations or poses: where a tool can be, from which directions, and how well it moves
 there.
 """
 
 from .cells import Cells
 from .execution.run import run
 from .maps.base_placement import BasePlacement, base_placement
-from .maps.branches import branches
 from .maps.histogram import MeasureHistogram, histogram
 from .maps.reach import reach
 from .maps.sweep_map import SweepMap, load_map
@@ -15,6 +14,7 @@ from .measures.dexterity import InverseCondition, SmallestSingularValue
 from .measures.joints import JointTravel, LimitMargin
 from .measures.monte_carlo import DrawnErrors, monte_carlo
 from .measures.pose_uncertainty import PoseUncertainty
+from .pose_samples import PoseGrid, PoseSamples
 from .samples import Grid, Random, Sobol
 from .sweep import Sweep
 
@@ -27,6 +27,8 @@ __all__ = [
     "JointTravel",
     "LimitMargin",
     "MeasureHistogram",
+    "PoseGrid",
+    "PoseSamples",
     "PoseUncertainty",
     "Random",
     "SelfCollision",
@@ -36,7 +38,6 @@ __all__ = [
     "SweepMap",
     "TopSamples",
     "base_placement",
-    "branches",
     "histogram",
     "load_map",
     "monte_carlo",

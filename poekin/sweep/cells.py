@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -71,10 +72,7 @@ class Cells:
         """
         size = positive(resolution, "resolution")
         whole(side, "side", 0, _SIDES)
-        begin = _corner(lower, "lower")
-        end = _corner(upper, "upper")
-        if not (begin < end).all():
-            raise InputError(f"box: expected lower below upper, got {begin} and {end}")
+        begin, end = box_corners(lower, upper)
         first = np.floor(begin / size)
         last = np.ceil(end / size)
         shape = np.maximum(last - first, 1.0)
@@ -89,6 +87,12 @@ class Cells:
         x, y, z = (first * size).tolist()
         cubes = (int(nx), int(ny), int(nz))
         return cls((x, y, z), size, cubes, side)
+
+    @property
+    def upper(self) -> tuple[float, float, float]:
+        """Corner of the last cube with the largest x, y and z, m."""
+        x, y, z = np.add(self.corner, np.multiply(self.resolution, self.shape)).tolist()
+        return x, y, z
 
     @property
     def tiles(self) -> int:
@@ -174,18 +178,38 @@ class Cells:
         InputError
             If turns is no whole number from 1 on.
         """
+        R = self.rotations(turns)
+        p = self.centres()
+        T = np.zeros((*self.shape, *R.shape[:2], 4, 4))
+        rotation_part(T)[:] = R
+        translation_part(T)[:] = p[..., None, None, :]
+        T[..., 3, 3] = 1.0
+        return T
+
+    def rotations(self, turns: int = 1) -> Array:
+        """Rotations in the middle of every tile.
+
+        Parameters
+        ----------
+        turns : int, default 1
+            As of `poses`.
+
+        Returns
+        -------
+        R : (tiles, turns, 3, 3) ndarray
+            Rotations of the tip in the base frame.
+
+        Raises
+        ------
+        InputError
+            If turns is no whole number from 1 on.
+        """
         whole(turns, "turns", 1)
         z = np.array([[0.0, 0.0, 1.0]])
         if self.side:
             z = tile_centres(self.side)
         angle = 2.0 * np.pi * np.arange(turns) / turns
-        tilt = _tilts(z)
-        p = self.centres()
-        T = np.zeros((*self.shape, len(z), turns, 4, 4))
-        rotation_part(T)[:] = tilt[:, None] @ _turned(angle)
-        translation_part(T)[:] = p[..., None, None, :]
-        T[..., 3, 3] = 1.0
-        return T
+        return _tilts(z)[:, None] @ _turned(angle)
 
     def find(self, T: ArrayLike) -> np.ndarray:
         """Cells of poses.
@@ -220,6 +244,22 @@ class Cells:
         into = found.reshape(-1)
         sweep_kernel.located.call(rows, self.numbers(), self.place(), into)
         return found
+
+
+def cells_from(document: dict[str, Any]) -> Cells:
+    """The cells that `describe` has described."""
+    corner = tuple(document["corner"])
+    shape = tuple(document["shape"])
+    return Cells(corner, document["resolution"], shape, document["side"])
+
+
+def box_corners(lower: ArrayLike, upper: ArrayLike) -> tuple[Array, Array]:
+    """Corners (3,) of a box, m. Raises: InputError of an empty one, ShapeError."""
+    begin = _corner(lower, "lower")
+    end = _corner(upper, "upper")
+    if not (begin < end).all():
+        raise InputError(f"box: expected lower below upper, got {begin} and {end}")
+    return begin, end
 
 
 def _tiles(side: int) -> int:

@@ -20,7 +20,8 @@ from ..model.sampling import sampling_range
 from .direction_numbers import MOST, sobol_numbers
 
 _TRIED = 4096
-_ASKED = 2**56  # numbers of samples times up to 64 coordinates are 64-bit numbers too
+MOST_SAMPLES = 2**56
+"""Bound of the number of samples: times up to 64 coordinates it is a 64-bit number too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,17 +76,8 @@ class Samples:
         """
         from ..engine.kernels.sweep import sweep_kernel  # which imports Numba
 
-        asked = np.asarray(numbers)
-        if asked.ndim != 1 or asked.dtype.kind not in "iu":
-            raise ShapeError(
-                f"numbers: expected whole numbers (N,), got {asked.dtype} {asked.shape}"
-            )
-        if len(asked) and not (asked.min() >= 0 and asked.max() < self.count):
-            raise InputError(
-                f"numbers: expected 0 ... {self.count - 1}, got {asked.min()} ... {asked.max()}"
-            )
-        q = np.empty((len(asked), len(self.lower)))
-        rows = asked.astype(np.int64)
+        rows = sample_numbers(numbers, self.count)
+        q = np.empty((len(rows), len(self.lower)))
         sweep_kernel.sampled.call(rows, self.numbers(), self.bounds, q)
         return q
 
@@ -132,7 +124,7 @@ class Random(Samples):
             If a number cannot be used, the arm has no coordinate, or coordinates within their
             limits take joints beyond their own.
         """
-        whole(count, "count", 1, _ASKED)
+        whole(count, "count", 1, MOST_SAMPLES)
         whole(seed, "seed", 0, KERNEL_INT)
         return cls(*_range_of(chain), count, seed)
 
@@ -202,7 +194,7 @@ class Sobol(Samples):
         >>> samples.configurations([0, 1]).shape
         (2, 6)
         """
-        whole(count, "count", 1, _ASKED)
+        whole(count, "count", 1, MOST_SAMPLES)
         if seed is not None:
             whole(seed, "seed", 0, KERNEL_INT)
         if chain.dof > MOST:
@@ -268,7 +260,7 @@ class Grid(Samples):
         if len(each) != chain.dof:
             raise ShapeError(f"counts: expected one or {chain.dof} numbers, got {len(each)}")
         parts = tuple(whole(part, "counts", 1, KERNEL_INT) for part in each)
-        count = whole(math.prod(parts), "product of the counts", 1, _ASKED)
+        count = whole(math.prod(parts), "product of the counts", 1, MOST_SAMPLES)
         return cls(*_range_of(chain), count, parts)
 
     def numbers(self) -> np.ndarray:
@@ -280,11 +272,16 @@ class Grid(Samples):
         return {"grid": list(self.counts)} | _bounds(self)
 
 
-def samples_of(chain: Chain, asked: int | Samples) -> Samples:
-    """Samples as they are, or a number of random ones. Raises: InputError."""
-    if isinstance(asked, Samples):
-        return asked
-    return Random.of(chain, asked)
+def sample_numbers(numbers: ArrayLike, count: int) -> np.ndarray:
+    """Numbers (N,) of samples, each below `count`. Raises: InputError, ShapeError."""
+    asked = np.asarray(numbers)
+    if asked.ndim != 1 or asked.dtype.kind not in "iu":
+        raise ShapeError(f"numbers: expected whole numbers (N,), got {asked.dtype} {asked.shape}")
+    if len(asked) and not (asked.min() >= 0 and asked.max() < count):
+        raise InputError(
+            f"numbers: expected 0 ... {count - 1}, got {asked.min()} ... {asked.max()}"
+        )
+    return asked.astype(np.int64)
 
 
 def samples_from(document: dict[str, Any]) -> Samples:

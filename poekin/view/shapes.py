@@ -74,7 +74,7 @@ def creased(surface: Surface) -> Surface:
     flat = cosines > SHARP
     patches = _joined(len(faces), first[flat], second[flat])
     patch_of_corner = np.repeat(patches, 3)
-    corners = np.stack([faces.ravel(), patch_of_corner], axis=-1)
+    corners = np.stack([faces.ravel(), patch_of_corner], axis=1)
     kept, numbers = np.unique(corners, axis=0, return_inverse=True)
     vertices = surface.vertices[kept[:, 0]]
     return Surface(vertices, numbers.reshape(-1, 3))
@@ -323,7 +323,7 @@ def helix_points(radius: float, angle: float, rise: float) -> Array:
     x = radius * np.cos(turn)
     y = radius * np.sin(turn)
     height = np.linspace(0.0, rise, count)
-    return np.stack([x, y, height], axis=-1)
+    return np.stack([x, y, height], axis=1)
 
 
 def frame_axes(pose: Array, length: float) -> tuple[Surface, Surface, Surface]:

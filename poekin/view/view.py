@@ -28,8 +28,6 @@ from .scenes.solutions import solutions_scene
 from .scenes.sweep_map import sweep_map_scene
 from .scenes.targets import solution_scene
 
-__all__ = ["view"]
-
 OF_ARMS: dict[type, Callable[..., Scene]] = {
     PathResult: path_scene,
     Solution: solution_scene,

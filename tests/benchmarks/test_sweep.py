@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 import poekin as pk
 from benchmarks.cases import sweep as topic
 from poekin.sweep import Random, Sweep, run
@@ -22,7 +20,7 @@ def test_the_judge_sees_a_lost_cell_and_a_wrong_measure():
     wrong = replace(found, best=1.01 * found.best)
     assert topic.error(SWEEP, wrong) > 1e-4
     counts = found.counts.copy()
-    place = topic._cells(0).find(ARM.fk(SWEEP.samples.configurations(np.arange(1))))
+    place = topic._cells(0).find(ARM.fk(topic._judged(SWEEP)[:1]))
     counts.reshape(-1)[place] = 0
     assert topic.error(SWEEP, replace(found, counts=counts)) >= 1 / topic.JUDGED
 
@@ -44,3 +42,10 @@ def test_the_page_has_a_figure_for_each_way_and_bars_where_they_are_asked():
     assert float(page.tables[0].rows[0][2]) < 1e-13
     assert float(page.tables[0].rows[1][2]) < 1e-6
     assert [float(row[2]) for row in page.tables[0].rows[2:]] == [0.0, 0.0]
+    (by_poses,) = [
+        figure for what, figure in figures.items() if what.startswith("UR5e: 20000 poses")
+    ]
+    assert by_poses.bar is None  # of a million
+    assert by_poses.error is not None
+    assert float(by_poses.error) < 1e-13
+    assert by_poses.note.endswith("with up to 8 solutions")

@@ -60,6 +60,8 @@ def shell(tmp_path, poekin, monkeypatch):
     _program(programs / "xacro", f"exec '{sys.executable}' -c 'import xacro; xacro.main()' \"$@\"")
     (tmp_path / "factory.urdf").write_text(DESCRIPTION)
     arm = DESCRIPTION.replace("<robot ", f"<robot {NAMESPACE} ", 1)
+    begin = arm.index(">", arm.index("<robot ")) + 1
+    arm = f'{arm[:begin]}<xacro:arg name="length" default="1"/>{arm[begin:]}'
     (tmp_path / "arm.urdf.xacro").write_text(arm)
     environment = os.environ | {"PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"}
 

@@ -88,6 +88,7 @@ DAMAGED = {
     "a shape of fractions": "{'descr': '<f8', 'fortran_order': False, 'shape': (3.0, 2)}",
     "a shape of truths": "{'descr': '<f8', 'fortran_order': False, 'shape': (True, 2)}",
     "a shape below 0": "{'descr': '<f8', 'fortran_order': False, 'shape': (-3, 2)}",
+    "a shape that is inferred": "{'descr': '<f8', 'fortran_order': False, 'shape': (-1, 2)}",
     "a shape too large for C": "{'descr': '<f8', 'fortran_order': False, 'shape': ("
     + "9" * 40
     + ", 2)}",
@@ -118,6 +119,7 @@ REASONS = {
     "a shape that is a number": "its header's shape is not valid",
     "a shape of truths": "its header's shape is not valid",
     "a shape below 0": "its header's shape is not valid",
+    "a shape that is inferred": "its header's shape is not valid",
     "a shape too large for C": "its header's shape is not valid",
     "a header without end": "its header is longer than 10000 bytes",
 }
@@ -138,6 +140,7 @@ def test_what_is_wrong_with_the_whole_is_said():
         (good[:100], "it ends within its header"),
         (good[:9], "it ends within its header"),
         (good[:8], "it ends within its header"),
+        (_file(""), "its header cannot be read"),
     ):
         with pytest.raises(FileError) as caught:
             configurations(content, 2, "q")
@@ -146,6 +149,10 @@ def test_what_is_wrong_with_the_whole_is_said():
         FileError, match=r"^q is damaged: its header says 48 bytes, the file has 47$"
     ):
         configurations(good[:-1], 2, "q")
+    with pytest.raises(
+        FileError, match=r"^q is damaged: its header says 320 bytes, the file has 200$"
+    ):
+        configurations(_saved(np.ones((20, 2)))[:-120], 2, "q")
     with pytest.raises(InputError, match=r"^q: an array of shape \(N, 3\) expected, got \(3, 2\)$"):
         configurations(good, 3, "q")
 

@@ -15,7 +15,7 @@ from poekin.cli import commands, conform
 from poekin.cli.calibration import calibrate
 from poekin.cli.kinematics import ik, jacobian
 from poekin.cli.models import emit
-from poekin.cli.sweep import reach
+from poekin.cli.sweep import histogram, reach
 from poekin.formats.poses.layout import FORMATS, layout
 from poekin.sweep import Cells
 from poekin.testing.conform import LAWS
@@ -26,6 +26,7 @@ DEFAULTS: dict[str, dict[str, object]] = {
     "calibrate": {
         "loss": "linear",
         "on_rank_deficiency": "raise",
+        "repeats": "keep",
         "folds": 5,
         "seed": 0,
         "convention": "standard",
@@ -61,12 +62,51 @@ DEFAULTS: dict[str, dict[str, object]] = {
         "json": False,
     },
     "ik": {"task": "pose", "no_limits": False, "seed": 0, "json": False},
+    "from_circles": {"json": False},
     "info": {"json": False},
     "jacobian": {"json": False},
     "singularity": {"tolerance": TOLERANCE, "json": False},
     "urdf": {},
+    "warm": {"json": False},
+    "names": {"json": False},
+    "view": {"no_meshes": False, "show": False},
+    "base": {"json": False},
+    "show": {"json": False},
+    "reach": {
+        "samples": "1e7",
+        "by": "configurations",
+        "turns": 1,
+        "resolution": 0.05,
+        "side": 0,
+        "measure": "reach",
+        "keep": "best",
+        "self_collision": False,
+        "seed": 0,
+        "resume": False,
+        "json": False,
+    },
+    "top": {
+        "measure": "manipulability",
+        "count": 10,
+        "by": "configurations",
+        "keep": "best",
+        "samples": "1e7",
+        "self_collision": False,
+        "seed": 0,
+        "json": False,
+    },
+    "histogram": {
+        "measure": "manipulability",
+        "bins": 20,
+        "by": "configurations",
+        "samples": "1e7",
+        "self_collision": False,
+        "seed": 0,
+        "json": False,
+    },
     "validate": {"every": False, "samples": 100, "seed": 0, "json": False},
 }
+OF_ERRORS = {"sigma_angle": 0, "sigma_length": 0, "seed": 0, "workers": 1}
 LEAST: dict[str, dict[str, float]] = {
     "calibrate": {"folds": 0, "seed": 0},
     "choose_poses": {"n": 1, "seed": 0},
@@ -74,6 +114,9 @@ LEAST: dict[str, dict[str, float]] = {
     "conform": {"examples": 1, "seconds": 0.1, "limit": 0.1},
     "follow": {"seed": 0},
     "ik": {"seed": 0},
+    "reach": {"side": 0, "turns": 1, **OF_ERRORS},
+    "top": {"count": 1, **OF_ERRORS},
+    "histogram": {"bins": 1, **OF_ERRORS},
     "validate": {"samples": 0, "seed": 0},
 }
 
@@ -105,6 +148,17 @@ def test_a_number_has_the_smallest_value_that_means_something(name):
     assert least == LEAST.get(name, {})
 
 
+def test_where_the_output_goes_is_said_by_o_everywhere():
+    declared = {
+        module.__name__.rpartition(".")[2]: (option.default, *option.param_decls)
+        for module in (*commands.COMMANDS, reach)
+        for name, option, _ in options(module)
+        if name == "output"
+    }
+    assert {"fk", "ik", "follow", "emit", "urdf", "dh", "view", "apply", "reach"} <= set(declared)
+    assert [name for name, words in declared.items() if "-o" not in words] == []
+
+
 def help_of(module: Any, name: str) -> str:
     return next(str(option.help) for n, option, _ in options(module) if n == name)
 
@@ -118,8 +172,12 @@ def test_the_numbers_in_the_help_are_those_that_are_taken():
     assert help_of(reach, "side") == (
         f"Tell {tiles[0]} SIDE² directions of the tool's z axis apart (4: {tiles[1]} of them)."
     )
-    assert help_of(reach, "samples") == "Number of configurations, as 10000000 or 1e8."
+    assert help_of(reach, "samples") == "Number of samples, as 10000000 or 1e8."
     assert help_of(calibrate, "folds").endswith("; 0: none.")
+    assert help_of(calibrate, "gravity").endswith("for compliance (default: 0,0,-1).")
+    assert help_of(histogram, "ends") == (
+        "Ends of the bins, in SI units (default: of 100000 configurations)."
+    )
     assert help_of(jacobian, "frame").endswith("of joint K, counted from 0).")
     assert help_of(emit, "frame").endswith("of joint K, from 0). Default: hybrid.")
     names = layout("matrix").columns

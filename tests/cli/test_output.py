@@ -39,7 +39,7 @@ def test_line_breaks_stay_in_text_and_not_in_a_name():
 
 
 def test_words_of_a_table_are_left_and_numbers_right_and_markup_is_text(capsys):
-    output.table(("joint", "kind", "m"), [("a", "x", 1.5), ("[b]\n", "yy", "22")], left=1)
+    output.table(("joint", "kind", "m"), [("a", "x", 1.5), ("[b]\n", "yy", "22")])
     lines = [line.rstrip() for line in capsys.readouterr().out.splitlines()]
     assert [line.split() for line in lines] == [
         ["joint", "kind", "m"], [lines[1].strip()], ["a", "x", "1.5"], ["[b]\\n", "yy", "22"],

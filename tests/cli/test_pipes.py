@@ -41,7 +41,7 @@ WORDS = {
     "emit": (*TIP, "--lang", "c", "--output", "OUT", "--force"),
     "view": (*TIP, "--output", "OUT.html"),
 }  # fmt: skip
-NO_MODEL = {"conform", "list", "warm"}
+NO_MODEL = {"conform", "list", "warm", "from-circles"}
 posix = pytest.mark.skipif(not os.path.exists("/dev/fd/0"), reason="pipes as POSIX has them")
 
 

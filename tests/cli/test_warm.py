@@ -41,8 +41,10 @@ def test_json_says_how_many_and_where(as_json):
 
 
 def test_where_nothing_is_kept_it_is_an_error(refused, tmp_path, monkeypatch):
-    # all kernels of this process are compiled already: nothing is added to another place, and
-    # what another version left there does not count
+    for kernel in warm.kernels().values():
+        kernel.ready()
+    # all of this process are compiled: nothing is added to another place, and what another version
+    # left there does not count
     new = tmp_path / "new"
     new.mkdir(0o755)
     for k in range(in_the_source()):

@@ -69,6 +69,19 @@ def test_a_file_is_written_read_and_loaded_as_a_robot(tmp_path):
         )
 
 
+def test_semicolons_and_decimal_commas_of_a_spreadsheet_are_read(tmp_path):
+    lines = (
+        "convention;kind;name;theta;d;a;alpha;upper;pose",
+        "standard;revolute;b, 1,5;0;0,1807;-0,6;1,5;2,5;",
+        "standard;tool;;;;;;;1 0 0 0,5 0 1 0 0 0 0 1 0",
+    )
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    table = table_io.read(tmp_path / "a.csv")
+    [row] = table.rows
+    assert (row.name, row.d, row.a, row.limits[1]) == ("b, 1,5", 0.1807, -0.6, 2.5)
+    assert table.tool[0, 3] == 0.5
+
+
 def test_columns_of_a_csv_may_stand_in_any_order():
     text = "d,a,alpha,theta,convention\n0.1,0.2,0.3,0.4,standard\n"
     assert table_io.read_text(text, "t.csv") == Table(

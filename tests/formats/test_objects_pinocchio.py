@@ -407,10 +407,12 @@ def test_a_body_keeps_its_name_and_a_fixed_joint_its_own_whatever_came_before_th
     model = stand_in()
     model.frames += [frame("x", "OP_FRAME", 1, 3, 0.1), frame("x", "BODY", 1, 3, 0.2)]
     model.frames += [frame("g", "OP_FRAME", 1, 3, 0.3), frame("g", "FIXED_JOINT", 1, 3, 0.4)]
+    model.frames += [frame("h", "BODY", 1, 3, 0.5), frame("h", "FIXED_JOINT", 1, 3, 0.6)]
     robot = from_object(model)
     place = {link: T[0, 3] for link, T in robot.fk([0.0]).items()}
     np.testing.assert_allclose([place["x"], place["x_"]], [1.2, 1.1], rtol=0, atol=1e-15)
-    np.testing.assert_allclose(robot.joint("g").origin[0, 3], 0.4, rtol=0, atol=1e-15)
+    for name, x in (("g", 0.4), ("h", 0.6)):
+        np.testing.assert_allclose(robot.joint(name).origin[0, 3], x, rtol=0, atol=1e-15)
 
 
 def test_a_joint_s_frame_that_is_not_in_the_joint_s_place_is_a_link_on_it():

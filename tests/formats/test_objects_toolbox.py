@@ -285,7 +285,7 @@ def test_transforms_come_in_whatever_is_like_a_list_and_not_as_a_text():
         (
             [et("Rz", offset="a")],
             InputError,
-            "ETS, transform 0: offset: expected real numbers, got str32 (str)",
+            "ETS, transform 0: offset: expected real numbers, got text (str)",
         ),
         (
             [SimpleNamespace(isjoint=False, axis="SE2", A=lambda: np.eye(3))],

@@ -53,6 +53,29 @@ def test_what_is_not_known_of_a_chain_stays_unknown():
     assert [joint.velocity for joint in robot.joints] == [math.inf] * 3
 
 
+@pytest.mark.parametrize("start", [0.0, 0.3])
+def test_masses_of_a_chain_are_those_of_the_links_that_its_joints_move(start):
+    rows = np.array([[2.0, 0.1, 0.2, 0.3], [0.0, 0, 0, 0], [5.0, -0.4, 0.5, 0.6]])
+    turned = np.array([[1.0, 0, 0], [0, 0.6, 0.8], [0, 0, 1.0]])
+    screws = np.hstack([turned, np.cross([0.3, 0.1, 0.2], turned)])
+    chain = Chain.from_space(screws, np.eye(4), masses=rows, offset=[0, start, 0])
+    robot = serial_robot(chain)
+    assert [own.link for own in robot.masses] == ["joint1_link", "joint3_link"]
+    np.testing.assert_allclose(again_masses(robot, [0, start, 0]), rows, rtol=0, atol=1e-15)
+    heavy = chain.replace(masses=rows * [1e4, 1, 1, 1])
+    assert serial_robot(heavy).masses == ()
+
+
+def again_masses(robot, x):
+    """Masses of a robot's joints where its joints are at -x: their own values are 0."""
+    T = robot.fk(-np.asarray(x))
+    rows = np.zeros((3, 4))
+    for own in robot.masses:
+        place = T[own.link] @ [*own.centre, 1.0]
+        rows[int(own.link[5]) - 1] = [own.mass, *place[:3]]
+    return rows
+
+
 def two(coupling, offset=(0, 0), kinds=("turn", "turn"), **options) -> Chain:
     A = [[0, 0, 1, 0, 0, 0] if kind == "turn" else [0, 0, 0, 1, 0, 0] for kind in kinds]
     return Chain.from_space(

@@ -34,7 +34,9 @@ def Rz(a: float) -> np.ndarray:
     return np.array([[math.cos(a), -math.sin(a), 0], [math.sin(a), math.cos(a), 0], [0, 0, 1]])
 
 
-@given(*[st.floats(-7, 7)] * 3, st.lists(st.floats(-1e3, 1e3), min_size=3, max_size=3))
+@given(
+    *[st.floats(-math.tau, math.tau)] * 3, st.lists(st.floats(-1e3, 1e3), min_size=3, max_size=3)
+)
 def test_an_origin_is_a_place_and_turns_about_fixed_axes(roll, pitch, yaw, xyz):
     place = " ".join(map(repr, xyz))
     T = read(f'<origin xyz="{place}" rpy="{roll!r} {pitch!r} {yaw!r}"/>{LIMIT}').joints[0].origin
@@ -48,6 +50,15 @@ def test_an_origin_is_a_place_and_turns_about_fixed_axes(roll, pitch, yaw, xyz):
 )
 def test_what_an_origin_leaves_out_is_zero(origin):
     assert (read(origin + LIMIT).joints[0].origin == np.eye(4)).all()
+
+
+def test_degrees_in_rpy_are_warned_of_with_their_line():
+    with pytest.warns(PoekinWarning) as caught:
+        read(f'<origin rpy="0 -90 0"/>{LIMIT}')
+    [said] = caught
+    assert str(said.message).endswith(
+        "<origin>: rpy is more than a turn: degrees? Expected are rad"
+    ), said.message
 
 
 def test_a_missing_axis_is_x():

@@ -53,6 +53,16 @@ def test_a_file_is_evaluated_with_its_arguments_and_includes_of_its_own_folder(a
 
 
 @needs_xacro
+@needs_xacro
+def test_an_argument_that_the_file_has_not_is_warned_of(arm):
+    with pytest.warns(PoekinWarning) as caught:
+        xacro(arm, lenght=2)
+    [said] = caught
+    assert str(said.message).endswith(
+        "xacro: it has no <xacro:arg> 'lenght'; did you mean 'length'?"
+    )
+
+
 def test_truth_values_are_xacros(tmp_path):
     path = tmp_path / "t.xacro"
     path.write_text(

@@ -164,3 +164,15 @@ def test_another_rotation_in_its_place_is_seen():
     assert np.abs(by_columns @ by_columns.T - np.eye(3)).max() < 1e-15
     assert asymmetry(by_columns.T @ M) > 1e-4
     assert np.linalg.norm(by_columns - M) > so3.nearest(M).moved + 1e-5
+
+
+@pytest.mark.parametrize("size", [0.999, 1.001])
+def test_what_was_rounded_up_or_down_is_told_of_the_nearest_and_a_reflection_is_not(size):
+    R = so3.exp([0.3, -0.2, 0.5])
+    told = "; if it was rounded, pk.so3.nearest gives the nearest rotation"
+    with pytest.raises(PoseError, match="misses orthonormality") as caught:
+        so3.log(size * R)
+    assert str(caught.value).endswith(told)
+    with pytest.raises(PoseError, match="misses orthonormality") as caught:
+        so3.log(-size * R)
+    assert told not in str(caught.value)

@@ -4,6 +4,7 @@ test_chain_laws.py.
 
 import copy
 import pickle
+import re
 import threading
 
 import numpy as np
@@ -462,6 +463,20 @@ def test_a_coordinate_without_a_limit_is_drawn_within_one_turn_or_two_metres(lim
         np.testing.assert_allclose(q.max(axis=0), high, atol=0.02)
         assert (q >= low).all()
         assert (q <= high).all()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((-1,), "rng, as a seed: expected a whole number from 0 on, got -1"),
+        (("a",), "rng, as a seed: expected a whole number from 0 on, got 'a'"),
+        ((0, -1), "size: expected a whole number from 0 on, got -1"),
+        ((0, (2, 1.5)), "size: expected a whole number from 0 on, got 1.5"),
+    ],
+)
+def test_random_names_the_seed_or_size_that_cannot_be(arguments, said):
+    with pytest.raises(InputError, match=re.escape(said)):
+        pk.load("ur5e").chain().random(*arguments)
 
 
 def test_random_of_a_geared_coordinate_without_limits_is_one_turn_of_the_fastest_joint():

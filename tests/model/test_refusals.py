@@ -35,7 +35,7 @@ OF_CALLS = {
                 "q: no coordinate 'slid'; did you mean 'slide'?"),
     "a value": (lambda: ARM.velocity(Q, {"slide": 1}, "body"), InputError, "dq: no value for 'pan'"),
     "a named value": (lambda: ARM.fk({"pan": "x", "slide": 1}), InputError,
-                      "q['pan']: expected real numbers, got str32 (str)"),
+                      "q['pan']: expected real numbers, got text (str)"),
     "values": (lambda: ARM.fk({"pan": [0, 1], "slide": [0, 1, 2]}), ShapeError,
                "q: the values' shapes do not broadcast: (2,), (3,)"),
     "dq": (lambda: ARM.velocity(np.zeros((3, 2)), np.zeros((4, 2)), "body"), ShapeError,

@@ -121,6 +121,19 @@ def test_a_chain_that_would_cross_a_free_joint_is_refused_by_name(kind):
     assert robot.q_names == ("j",)
 
 
+def test_a_tip_that_is_taken_for_the_base_is_told():
+    robot = line(revolute("a", "base", "arm"), revolute("b", "arm", "tool0"))
+    words = r"tip must be given, .*; the base is 'tool0': chain\(tip='tool0'\) ends there"
+    with pytest.raises(InputError, match=words):
+        robot.chain("tool0")
+    fork = Robot("fork", [*robot.links, "lamp"], [*robot.joints, revolute("c", "arm", "lamp")])
+    with pytest.raises(InputError, match=words):
+        fork.chain("tool0")
+    assert robot.chain("arm").tip == "tool0"
+    assert robot.chain("tool0", "tool0").dof == 0
+    assert Robot("one", ["base"], []).chain("base").dof == 0
+
+
 def test_unknown_names_are_answered_with_the_closest():
     robot = line(revolute("shoulder", "base_link", "upper_arm"))
     with pytest.raises(UnknownName, match="no tip link 'uper_arm'; did you mean 'upper_arm'"):

@@ -8,7 +8,7 @@ import pytest
 import poekin as pk
 from poekin.solve.ik.ik import ik
 from poekin.solve.ik_all.ik_all import ik_all
-from poekin.solve.joint_units import MOST_TURNS, joint_units, period
+from poekin.solve.joint_units import MOST_TURNS, has_sums, joint_units, period
 from poekin.solve.path.follow import follow
 
 UR5E = pk.load("ur5e").chain(tip="tool0")
@@ -256,3 +256,32 @@ def test_a_coordinate_that_slides_a_joint_too_has_no_period(gear, axis):
     chain = pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic(axis)], np.eye(4),
                      coupling=[[1.0], [gear]])  # fmt: skip
     assert period(chain, 0) == 0
+
+
+@pytest.mark.parametrize(
+    ("coupling", "are_sums"),
+    [
+        ([[2.0, 0.0], [0.0, -1.0]], False),
+        ([[1.0, 0.0], [1.0, 1.0]], True),
+        ([[1.0, 1.0], [1.0, 1.0]], False),  # which do not determine the coordinates
+        ([[1.0, 1.0, 0.0], [0.0, 0.0, 1.0]], False),
+    ],
+)
+def test_joints_are_sums_where_one_has_two_coordinates_and_these_follow_from_the_joints(
+    coupling, are_sums
+):
+    screws = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 1.0)]
+    chain = pk.Chain.from_space(screws, np.eye(4), coupling=coupling)
+    assert has_sums(chain) == are_sums
+
+
+def test_joints_that_are_sums_are_the_coordinates_unless_some_are_locked():
+    screws = [pk.screw.revolute([0, 0, 1.0], [x, 0, 0]) for x in (0, 1)]
+    sums = np.array([[1.0, 0.0], [0.5, 2.0]])
+    chain = pk.Chain.from_space(
+        screws, np.eye(4), coupling=sums, q_names=["a", "b"], joint_limits=[[-1, 1], [-1, 1]]
+    )
+    fast = chain.compile()
+    np.testing.assert_array_equal(np.asarray(joint_units(fast).scale), sums)
+    np.testing.assert_array_equal(np.asarray(joint_units(fast, locked=True).scale), np.diag([1, 2]))
+    assert joint_units(fast).fast.chain.q_names == chain.joint_names

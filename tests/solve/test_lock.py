@@ -50,9 +50,16 @@ def test_values_of_a_batch_are_those_of_each_target_in_joint_units():
     assert locked_rows(UNITS, lock, LIMITS, (0, 2)).shape == (0, 2)
 
 
+@pytest.mark.parametrize("value", [-1.5, 1.0])
+def test_the_limits_themselves_are_taken(value):
+    lock = items({"b": value})
+    np.testing.assert_array_equal(locked_values(UNITS, lock, LIMITS), [np.nan, -2 * value])
+    np.testing.assert_array_equal(locked_rows(UNITS, lock, LIMITS, (1,)), [[np.nan, -2 * value]])
+
+
 @pytest.mark.parametrize(("lock", "error", "words"), [
     ({"c": 1.0}, UnknownName, "lock: no coordinate 'c'; "),
-    ({"b": [0.5, 2.0]}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got 2.0"),
+    ({"b": [2.0, -3.0]}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got 2.0"),
     ({"b": [0.5, np.nan]}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got nan"),
     ({"b": True}, InputError, "lock: 'b': expected real numbers, got bool"),
     ({"b": "1"}, InputError, "lock: 'b': expected "),
@@ -63,10 +70,35 @@ def test_values_that_do_not_fit_are_refused_in_the_user_s_units(lock: Any, error
         locked_rows(UNITS, items(lock), LIMITS, (2,))
 
 
+@pytest.mark.parametrize(("name", "value", "within"), [
+    ("b", 1.1, "[-1.5, 1.0], got 1.1"),
+    ("b", -1.6, "[-1.5, 1.0], got -1.6"),
+    ("a", -2.1, "[-2.0, 4.0], got -2.1"),
+    ("a", np.nan, "[-2.0, 4.0], got nan"),
+    ("a", "1", "[-2.0, 4.0], got '1'"),
+    ("a", True, "[-2.0, 4.0], got True"),
+])  # fmt: skip
+def test_one_value_that_does_not_fit_is_refused_in_the_user_s_units(name, value, within):
+    words = f"lock: '{name}': expected a number within {within}"
+    with pytest.raises(InputError, match=f"^{re.escape(words)}$"):
+        locked_values(UNITS, items({name: value}), LIMITS)
+    for end in (-1.5, 1.0):
+        assert locked_values(UNITS, items({"b": end}), LIMITS)[1] == -2 * end
+
+
+def test_a_coordinate_that_is_not_there_cannot_be_locked():
+    words = "lock: no coordinate 'c'; available: 'a', 'b'"
+    with pytest.raises(UnknownName, match=f"^{re.escape(words)}$"):
+        locked_values(UNITS, items({"c": 1.0}), LIMITS)
+
+
 def test_what_is_no_dict_is_no_lock():
     wrong: Any = [("a", 1.0)]
-    with pytest.raises(InputError, match="lock: expected a dict of names and values"):
+    words = "lock: expected a dict of names and values, got [('a', 1.0)]"
+    with pytest.raises(InputError, match=f"^{re.escape(words)}$"):
         items(wrong)
+    assert items(None) is None
+    assert items({"a": 1.0}) == (("a", 1.0),)
 
 
 @given(st.data())
@@ -147,3 +179,17 @@ def test_an_arm_of_which_nothing_is_locked_is_left_as_it_is(chain):
     assert free_chain(chain, free) is chain
     free[0] = 0.0
     assert free_chain(chain, free) is not chain
+
+
+@pytest.mark.parametrize(("coupling", "ends"), [
+    # joints a, c and b: what is locked, b, moves the last one alone, and then with another
+    ([[1, 0, 0], [0, 0, 1], [0, 1, 0]], [False, True, False]),
+    ([[1, 0, 0], [0, 0, 1], [0, 1, 1]], [False, False, False]),
+    ([[0, 1, 0], [1, 0, 0], [0, 0, 1]], [False, True, False]),
+    ([[1, 1, 0], [1, 0, 0], [0, 0, 1]], [False, False, False]),
+    ([[1, 0, 0], [0, 1, 0], [0, 0, 1]], [False, False, False]),
+])  # fmt: skip
+def test_what_moves_a_joint_that_moves_otherwise_too_is_not_at_an_end(coupling, ends):
+    screws = [pk.screw.revolute([0, 0, 1.0], [x, 0, 0]) for x in range(3)]
+    chain = pk.Chain.from_space(screws, np.eye(4), coupling=coupling, q_names=["a", "b", "c"])
+    assert at_ends(chain, np.array([True, False, True])).tolist() == ends

@@ -566,6 +566,7 @@ def test_each_joint_has_its_own_limits():
     (lambda: motion.cubic("1"),  # type: ignore[arg-type]
      "duration: expected a positive number of seconds, got '1'"),
     (lambda: motion.trapezoidal(1, 0), "acceleration_fraction: expected a number above 0 and at most 0.5, got 0"),
+    (lambda: motion.trapezoidal(1, -0.1), "acceleration_fraction: expected a number above 0 and at most 0.5, got -0.1"),
     (lambda: motion.trapezoidal(1, True), "acceleration_fraction: expected a number above 0 and at most 0.5, got True"),
     (lambda: motion.minimum_time("cubic", [0, 1], acceleration=[1, -1]),
      "acceleration: expected positive limits, got [1, -1]"),
@@ -575,6 +576,12 @@ def test_each_joint_has_its_own_limits():
      "acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time"),
     (lambda: motion.minimum_time("cubic", [1, 2], acceleration=[1, 2, 3]),
      "acceleration: shape (3,) does not fit the distances' (2,)"),
+    (lambda: motion.minimum_time("cubic", 1),
+     "minimum_time: expected a limit of speed, of acceleration, or of both, got none"),
+    (lambda: motion.minimum_time("cubic", [1, 0], speed=[math.inf, 1]),
+     "minimum_time: expected a finite limit for some distance that is not 0, got none"),
+    (lambda: motion.minimum_time("cubic", [math.inf, 1], speed=1),
+     "distance: expected finite numbers, got [inf, 1]"),
     (lambda: motion.minimum_time(3, 1, speed=1),  # type: ignore[arg-type]
      "law: expected 'cubic', 'quintic' or 'trapezoidal', got 3"),
 ])  # fmt: skip

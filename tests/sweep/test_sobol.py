@@ -58,6 +58,26 @@ def test_seeds_scramble_each_coordinate_in_its_own_way():
     assert ((mixed[1:] ^ mixed[:-1]) != (whole[1:] ^ whole[:-1])).any(axis=0).all()
 
 
+def bits_of(number):
+    """Its 64 bits, the highest first."""
+    return np.array([number >> k & 1 for k in range(63, -1, -1)])
+
+
+@pytest.mark.parametrize("seed", [0, 5])
+def test_a_scrambled_number_is_a_matrix_of_bits_times_the_number_and_a_shift(seed):
+    rng = np.random.Generator(np.random.PCG64(seed))
+    numbers = [0, 1, 2, 1000, 2**40 + 3]
+    plain, mixed = units(3, numbers), units(3, numbers, seed)
+    for i in range(3):
+        # 65 words of eight bytes: rows of a triangle with ones on its diagonal, and the shift
+        words = [bits_of(int.from_bytes(rng.bytes(8), "little")) for _ in range(65)]
+        L = np.tril(words[:64], -1) + np.eye(64, dtype=int)
+        for before, after in zip(plain[:, i], mixed[:, i], strict=True):
+            # the highest 53 bits of the result depend on no lower ones
+            bits = (L @ bits_of(int(before * 2**53) << 11) + words[64]) % 2
+            assert after == sum(int(bit) / 2 ** (k + 1) for k, bit in enumerate(bits[:53]))
+
+
 def test_the_mean_of_a_scrambled_number_over_seeds_is_a_half():
     firsts = np.array([units(2, [0, 77], seed) for seed in range(400)])
     # standard deviation of a mean of n uniform numbers: 1 / sqrt(12 n); six of them

@@ -106,6 +106,15 @@ def test_without_the_future_import_annotations_run_and_are_changed():
     }
 
 
+def test_an_overload_is_a_hint_and_no_code():
+    source = (
+        "from __future__ import annotations\n"
+        "@overload\ndef f(a: int, b=2): return 3\n"
+        "def f(a: int, b=2):\n    return 3\n"
+    )
+    assert {m.line for m in mutants_of("f.py", source)} == {4, 5}
+
+
 def test_a_length_that_numpy_takes_for_whatever_is_left_is_no_mutant():
     assert {m.new for m in mutants_of("f.py", "a = b.reshape(-1, 2)\n")} == {
         f"a = b.reshape({first}, {second})"

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from poekin.errors import FileError, MissingExtra
+from poekin.errors import FileError, InputError, MissingExtra
 from poekin.view import k3d_objects
-from poekin.view.nodes import Attachment, Cloud
+from poekin.view.nodes import Attachment, Cloud, Label, Polyline
 from poekin.view.page import SCRIPTS, Page, page, page_script
 from poekin.view.scene_json import scene_json
 from tests.view import sliding_arm
@@ -246,3 +246,59 @@ def test_the_points_of_a_cloud_are_coloured_from_blue_to_orange():
 
 def test_a_colour_is_split_into_its_three_bytes():
     assert k3d_objects._rgb(0xFF0103) == (1, 1 / 255, 3 / 255)
+
+
+def test_a_line_is_drawn_piece_by_piece_from_point_to_point():
+    places = np.array([[0, 0, 0], [1, 0, 0], [1, 2, 0], [1, 2, 3]], float)
+    lines = [Polyline(Attachment("path", "path", 1), places[:n], 0.25) for n in (4, 2)]
+    scene = sliding_arm.scene(nodes=tuple(lines))
+    (one,) = geometry(page(scene).html)
+    assert one["vertices"].reshape(-1, 3).tolist() == [*places.tolist(), *places[:2].tolist()]
+    assert one["indices"].reshape(-1, 2).tolist() == [[0, 1], [1, 2], [2, 3], [4, 5]]
+
+
+def test_what_looks_different_or_moves_otherwise_is_another_object():
+    plain = Attachment("path", "path", 1)
+    nodes = [
+        Polyline(plain, np.eye(3), 0.25),
+        Polyline(plain, np.eye(3), 0.5),
+        Polyline(dataclasses.replace(plain, choice=1), np.eye(3), 0.25),
+        Cloud(plain, np.eye(3), 0.25),
+        Cloud(plain, np.eye(3), 0.25),
+        Label(plain, np.zeros(3), "no object"),
+        Polyline(dataclasses.replace(plain, name="alike"), np.eye(3), 0.25),
+    ]
+    objects = k3d_objects.grouped(nodes)
+    assert [[nodes.index(node) for node in one.nodes] for one in objects] == [
+        [0, 6],
+        [1],
+        [2],
+        [3],
+        [4],
+    ]
+    assert [one.number for one in objects] == [1, 2, 3, 4, 5]
+
+
+def test_a_line_is_a_tube_of_its_width_in_the_colour_and_opacity_of_what_it_stands_for():
+    held = Attachment("path", "marked", 1, opacity=0.5)
+    line = Polyline(held, np.eye(3), 0.25)
+    (one,) = packed(page(sliding_arm.scene(nodes=(line,))).html)["objects"]
+    looks = {"color": 0xD55E00, "opacity": 0.5, "width": 0.25, "shader": "mesh"}
+    assert {name: one[name] for name in looks} == looks
+    body = sliding_arm.box(dataclasses.replace(held, color=0x123456), [0, 0, 0], [1, 1, 1])
+    (one,) = packed(page(sliding_arm.scene(nodes=(body,))).html)["objects"]
+    assert (one["color"], one["opacity"], one["roughness"]) == (0x123456, 0.5, 0.7)
+
+
+@pytest.mark.parametrize(("length", "shown"), [(60, "x" * 60), (61, "x" * 59 + "…")])
+def test_sixty_characters_of_a_title_stand_in_the_line_of_a_page(made, length, shown):
+    assert repr(Page("x" * length, "y" * 2_340_000)) == f"<Page '{shown}', 2.3 MB>"
+    frame = Page("x" * (length + 140), "")._repr_html_()
+    assert f'title="{shown[:1] * 140 + shown}"' in frame
+
+
+def test_a_page_of_a_k3d_that_is_not_known_is_refused(monkeypatch):
+    for text in ("<title></title></head>", "<title></title></body>"):
+        monkeypatch.setitem(page.__globals__, "snapshot", lambda *_, text=text: text)
+        with pytest.raises(InputError, match=r"^k3d's page has no title, head or body: this k3d"):
+            page(sliding_arm.scene())

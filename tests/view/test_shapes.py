@@ -178,3 +178,11 @@ def test_a_capsule_between_equal_points_is_a_sphere_around_them():
     ball = shapes.capsule([1, 2, 3], [1, 2, 3], 0.5)
     distances = np.linalg.norm(ball.vertices - [1, 2, 3], axis=1)
     np.testing.assert_allclose(distances, 0.5, rtol=1e-14)
+
+
+@pytest.mark.parametrize("radius", [2e-4, 0.5, 40.0])
+def test_a_capsule_shorter_than_a_millionth_of_its_radius_is_a_sphere(radius):
+    """A sphere of 16 sides has 7 rings and two ends, a capsule the ring of the equator twice."""
+    for share, rings in ((0.0, 7), (0.9e-6, 7), (1.1e-6, 8), (1.0, 8)):
+        made = shapes.capsule([0, 0, 0], [0, 0, share * radius], radius)
+        assert len(made.vertices) == rings * 16 + 2

@@ -12,6 +12,7 @@ import ast
 import hashlib
 import itertools
 import re
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -177,21 +178,29 @@ def changed(operator: Any, node: Any, index: int) -> str:
 
 
 def hints(source: str) -> list[tuple[tuple[int, int], tuple[int, int]]]:
-    """Where the annotations of a module stand: with `from __future__ import annotations` nothing
-    there ever runs.
+    """Where the annotations of a module stand, and its overloads: with `from __future__ import
+    annotations` nothing there ever runs.
     """
     tree = ast.parse(source)
     if not any(
         isinstance(node, ast.ImportFrom) and node.module == "__future__" for node in tree.body
     ):
         return []
-    return [
+    found = [
         (
             (node.lineno, column(source, node)),
             (node.end_lineno or 0, column(source, node, end=True)),
         )
         for node in _hint_nodes(tree)
     ]
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef) and _is_overload(node):
+            found.append(((node.decorator_list[0].lineno, 0), (node.end_lineno or 0, sys.maxsize)))
+    return found
+
+
+def _is_overload(node: ast.FunctionDef) -> bool:
+    return any(isinstance(d, ast.Name) and d.id == "overload" for d in node.decorator_list)
 
 
 def _hint_nodes(tree: ast.AST) -> Iterator[ast.expr]:

@@ -1,6 +1,7 @@
 """Names of modules and of tests by room and stem, which a file keeps wherever it moves in its room.
 
-`model/hp` is the one hp.py below poekin/model, and of tests the one test_hp.py below tests/model.
+`model/hp` is the one hp.py below poekin/model, and of tests the one test_hp.py below tests/model;
+`cli/__init__` is that of poekin/cli itself.
 Folders in between tell files of one stem apart: `testing/conform/search`. A slash at the end makes
 it a folder: `formats/dh/`.
 """
@@ -33,7 +34,8 @@ def test(name: str) -> str:
 
 def _only(top: str, name: str, file: str) -> str:
     parts = (name[:-1] if name.endswith("/") else file).split("/")
-    pattern = re.compile(f"{top}/" + "/(?:.*/)?".join(map(re.escape, parts)))
+    between = "/(?:.*/)?".join(map(re.escape, parts)).replace("(?:.*/)?__init__", "__init__")
+    pattern = re.compile(f"{top}/{between}")
     found = [path for path in _listed(ROOT, top) if pattern.fullmatch(path)]
     if len(found) != 1:
         places = ", ".join(found) or "none"

@@ -34,7 +34,17 @@ _SCENES = (
     "view/arm_scene view/comparison_scene view/calibration_scene view/path_scene"
     " view/singularity_scene view/solution_scenes view/exaggerated"
 )
-_DRAWN = "view/drawn view/scale"
+_DRAWN = "view/limits view/drawn view/scale"
+_ERRORS = "sweep/measures/measures sweep/monte_carlo sweep/error_sources"
+_MEASURED = "sweep/dexterity sweep/labels sweep/measures/measures sweep/histogram sweep/maps/reach"
+_SWEPT = (
+    "sweep/cells sweep/samples sweep/sobol sweep/measures/measures sweep/totals sweep/run sweep/top"
+    " sweep/histogram sweep/solutions sweep/pose_sweep sweep/self_collision"
+)
+_TRANSPILED = (
+    "engine/statements engine/refusals engine/function_source engine/layout engine/values"
+    " engine/translation_unit engine/whole_numbers"
+)
 _SLOW_LEAVES = (  # left for the end
     "view/kinematics::test_links_and_jacobians_of_all_leaves_of_every_other_example_robot_are_the_robots"
 )
@@ -57,19 +67,23 @@ NEAR = {
     "groups/vectors": "own",
     "groups/rpy": "groups/values formats/rpy",
     "groups/euler": "own formats/poses/numbers formats/rpy",
-    "engine/array_io": f"groups/batches {CHAINS}",
+    "engine/array_io": f"own groups/batches {CHAINS}",
     "engine/chain_kernels": CHAINS,
     "engine/derivative_kernels": "model/derivatives model/derivatives_pinocchio model/chain",
     "engine/follow_kernels": "engine/ik_kernels solve/follow",
     "engine/group_kernels": f"groups/values groups/batches {GROUPS}",
     "engine/ik_all_kernel": "engine/ik_kernels solve/ik_all",
-    "engine/ik_kernels": f"own {BY_ARMS} solve/redundancy",
+    "engine/ik_kernels": f"engine/solve_one own {BY_ARMS} solve/redundancy",
     "engine/interpret": "own engine/program model/compiled",
-    "engine/program": "engine/trace engine/interpret formulas/structured model/compiled",
+    "engine/program": "own engine/trace engine/interpret formulas/structured model/compiled",
     "engine/sincos": "own engine/interpret",
     "engine/source_hash": "engine/cache",
-    "engine/specialise": "engine/interpret engine/count model/compiled",
+    "engine/specialise": "engine/program engine/interpret engine/count model/compiled",
     "engine/trace": "own engine/program analysis/count model/compiled",
+    "engine/transpile/": f"engine/layout {_TRANSPILED}",
+    "engine/values engine/c_types engine/translation_unit": f"engine/values {_TRANSPILED}",
+    "engine/function_source": f"engine/function_source {_TRANSPILED} engine/array_functions",
+    "engine/transpile/arrays/": "engine/array_functions formats/jax",
     "engine/tree_kernels": "model/tree model/robot",
     "model/analytic model/hp model/pose_jacobian": f"own {_REFUSALS} {CHAINS}",
     "model/arm": "own formats/emit_python solve/ik",
@@ -77,7 +91,7 @@ NEAR = {
     "model/chain model/chain_data model/other_frames model/outputs": (
         f"{CHAINS} model/chain_data {_REFUSALS} model/coordinates model/pitches"
     ),
-    "model/checks": f"own model/joint {_REFUSALS} {CHAINS}",
+    "model/checks": f"own model/joint model/link_masses {_REFUSALS} {CHAINS}",
     "model/compiled": f"{_REFUSALS} own model/chain_laws",
     "model/coordinates": f"own model/checks {_REFUSALS} {CHAINS}",
     "model/coupling": f"own {_ROBOTS}",
@@ -93,37 +107,104 @@ NEAR = {
     "model/structure": "own model/compiled",
     "formats/dh/": f"{DH} formats/dh_calibrated --deselect={_SLOW}",
     "formats/erd": "formats/load",
+    "formats/relinked": "own formats/coupled_files",
+    "formats/chain_toml": "own solve/toml_io solve/document formats/dh_calibrated",
     "formats/emit/c formats/emit/c_selftest": f"formats/emit_text {_EMITTED}",
     "formats/emit/python formats/emit/statements": f"formats/emit_text {_EMITTED}",
     "formats/emit/messages": _EMITTED,
+    "formats/emit/ik/": (
+        "formats/emit_ik/c_ik_text formats/emit_ik/placed_branch formats/emit_ik/c_ik"
+    ),
+    "formats/emit/correction/": "solve/emission cli/true_joints cli/emit",
+    "formats/poses/layout": "formats/poses/numbers formats/pose_rows formats/poses/read cli/poses",
     "formats/emit/vectors": f"formats/emit_vectors {_EMITTED}",
-    "solve/calibrate": "solve/cross_validation own solve/refusals solve/fitting solve/toml_io",
-    "solve/calibration": "solve/html_report solve/calibrate solve/toml_io solve/fitting",
+    "solve/calibrate": (
+        "solve/cross_validation own solve/refusals solve/fitting solve/toml_io solve/masses"
+    ),
+    "solve/calibration": (
+        "solve/document solve/emission solve/compensation solve/html_report solve/calibrate solve/toml_io"
+        " solve/fitting"
+    ),
+    "solve/circles/": "own solve/fitting",
+    "solve/csv_io": "own solve/motions solve/path_result solve/trajectory cli/array_files",
+    "solve/effects/search": "solve/effects/diagnosis solve/outliers_explained solve/calibrate",
+    "solve/exact/errors solve/exact/bounds": "solve/bounds solve/errors solve/digits solve/from_fk cli/exact",
+    "solve/timing": "solve/motions solve/time_optimal solve/path_result solve/follow solve/plot",
+    "solve/error_model": "solve/auto solve/calibrate solve/covariance solve/masses solve/fitting",
+    "solve/ik_all/ik_all": (
+        "own solve/swivel solve/ik_all_places solve/ik_all_search solve/ik solve/ik_few_coordinates"
+    ),
+    "solve/ik_structure/ik_structure solve/neighbours": (
+        "solve/ik_structure/cases solve/neighbours solve/ik_structure/ik_structure"
+    ),
+    "solve/ik_problem": (
+        "own solve/coupled_limits solve/chain_cache solve/every_solution solve/ik solve/follow"
+        " solve/follower"
+    ),
     "solve/losses": "solve/noise solve/fitting solve/refit solve/exchange",
     "view/k3d_objects view/page view/palette view/scene_json": (
         "view/page view/drawn view/scene view/page_parts"
     ),
-    "view/mesh_nodes": f"own {_DRAWN} view/arm_scene",
+    "view/mesh_nodes": f"own view/shape_reader {_DRAWN} view/arm_scene",
     "view/kinematics": f"view/arm_scene {_DRAWN} own --deselect={_SLOW_LEAVES}",
     "view/nodes view/scene view/shapes": f"view/shapes view/scene {_DRAWN} {_SCENES}",
-    "view/arm view/arm_parts/ view/stage": f"{_DRAWN} {_SCENES} view/scene cli/view",
+    "view/arm view/arm_parts/ view/stage": (
+        f"{_DRAWN} view/stage view/axis_lines {_SCENES} view/scene cli/view"
+    ),
     "view/regular": f"own {_DRAWN}",
     "view/scenes/calibration": f"view/calibration_scene {_DRAWN}",
     "view/scenes/comparison": f"view/comparison_scene {_DRAWN} view/view",
-    "view/scenes/path": f"view/path_scene {_DRAWN}",
+    "view/scenes/path": f"view/path_scene view/path_parts {_DRAWN}",
     "view/scenes/singular": f"view/singularity_scene {_DRAWN}",
     "view/scenes/solutions view/scenes/targets": f"view/solution_scenes {_DRAWN} view/path_scene",
-    "view/exaggerated view/overlay": f"view/exaggerated {_DRAWN} {_SCENES}",
+    "view/exaggerated view/overlay": (
+        f"view/exaggerated view/exaggerated_parts {_DRAWN} {_SCENES}"
+    ),
     "view/scenes/sweep_map": "view/sweep_map_scene view/view",
-    "engine/kernels/sweep/": "own sweep/",
+    "engine/kernels/sweep/": f"own {_SWEPT}",
     "engine/samples": "own sweep/samples sweep/sobol",
     "engine/tiles": "own sweep/cells sweep/tile_centres",
-    "sweep/error_program": "sweep/measures sweep/monte_carlo sweep/error_sources",
+    "sweep/error_program": f"sweep/measures/error_program {_ERRORS}",
+    "sweep/error_sources": "sweep/error_sources_parts own",
+    "sweep/pose_uncertainty": f"sweep/dexterity {_ERRORS} sweep/totals",
+    "sweep/measures/dexterity sweep/measure sweep/measures/names": _MEASURED,
+    "sweep/joints": f"own {_MEASURED}",
+    "sweep/bins": "own sweep/histogram sweep/top sweep/histogram_parts sweep/top_parts",
+    "sweep/cells": "own sweep/cells_borders sweep/pose_samples sweep/sweep_map",
+    "sweep/fused": "sweep/solutions sweep/self_collision sweep/run sweep/totals",
+    "sweep/base_placement": "own",
+    "sweep/histogram": "own sweep/histogram_parts sweep/pose_maps",
+    "sweep/labelled sweep/map_files": "sweep/map_files sweep/map_files_parts",
+    "sweep/maps/reach": "sweep/reach_parts own",
+    "sweep/top": "own sweep/top_parts sweep/pose_maps",
+    "sweep/covering": "sweep/covering_parts own sweep/self_collision",
+    "sweep/spheres sweep/touching": "sweep/spheres sweep/self_collision_parts sweep/self_collision",
+    "sweep/samples": "sweep/samples_parts own sweep/sobol sweep/histogram",
+    "sweep/pose_samples": "own sweep/samples_parts sweep/pose_maps sweep/maps/reach",
+    "sweep/self_collision": "sweep/self_collision_parts own sweep/covering",
+    "sweep/store": "sweep/store_files own",
+    "sweep/execution/run": "sweep/run_parts own sweep/pose_sweep",
+    "sweep/totals": (
+        "own sweep/totals_poses sweep/totals_calls sweep/run sweep/top sweep/top_parts sweep/pose_sweep"
+    ),
+    "sweep/tile_centres": "own",
+    "sweep/sweep_map": (
+        "sweep/sweep_map_parts own sweep/pose_maps sweep/map_files sweep/self_collision sweep/maps/reach"
+    ),
     "view/view": "own",
+    "cli/__init__ cli/__main__ cli/commands": "cli/run cli/pipes",
+    "cli/arm": "cli/fk cli/units cli/poses cli/run cli/options",
+    "cli/calibration/outputs": "cli/calibrate cli/apply cli/calibrate_options cli/options",
+    "cli/histogram": "cli/top cli/sweep_options",
+    "cli/jacobian": "cli/fk cli/coupling cli/options cli/run",
     "cli/fk": "own cli/units cli/poses",
-    "cli/show": "cli/reach cli/options",
-    "cli/model": "own cli/coupling cli/vendor_files cli/from_ros cli/options",
-    "cli/poses": "own cli/options cli/ik cli/units",
+    "cli/follow": "own cli/follow_told cli/pages_told cli/poses_units cli/units cli/options cli/fastest_files",
+    "cli/ik": "own cli/ik_told cli/pages_told cli/poses_units cli/units cli/options",
+    "cli/show": "own cli/reach cli/options",
+    "cli/sweep/options": "cli/sweep_options cli/options cli/reach cli/top",
+    "cli/measured": "own cli/measured_told cli/repeats",
+    "cli/model": "own cli/coupling cli/vendor_files cli/from_ros cli/poses cli/options",
+    "cli/poses": "own cli/poses_units cli/options cli/ik cli/units",
     "cli/draw": "own cli/compare",
     "cli/view": "own",
     "engine/tree": "own model/link_program",
@@ -131,15 +212,29 @@ NEAR = {
     "solve/last_result": "own solve/fitting",
     "checks": "own model/refusals solve/refusals solve/choose analysis/axes",
     "solve/reweighted solve/flatness": "own solve/initial_guess_parts solve/initial_guess",
+    "solve/measurement": f"{_POINTS} own solve/most_likely solve/bounds solve/cross_validation",
+    "solve/path_events": "solve/path_interval solve/path_result solve/coupled_limits solve/follow view/path_scene",
     "solve/points solve/poses": _POINTS,
-    "solve/calibration/result solve/summary": "solve/calibrate solve/html_report solve/toml_io",
-    "solve/problem": f"{_FRAMES} solve/refusals solve/fitting solve/calibrate solve/choose",
+    "solve/calibration/result": "solve/uncertainty solve/calibrate solve/html_report solve/toml_io",
+    "solve/summary": (
+        "solve/report/summary solve/unknown_points_told solve/uncertainty solve/calibrate solve/toml_io"
+    ),
+    "solve/problem": (
+        f"{_FRAMES} solve/refusals solve/outliers_explained solve/fitting solve/calibrate solve/choose"
+        " solve/residual_vectors"
+    ),
+    "solve/fitted_problem": (
+        "solve/refusals solve/fitting solve/calibrate solve/compensation solve/covariance"
+    ),
+    "solve/residual_vectors": "own solve/unknown_points",
+    "solve/separations": "solve/unknown_points",
     "analysis/axes analysis/shapes": _AXES,
     "analysis/axis_lines": f"own analysis/lines {_COMPARES}",
     "analysis/compare/compare": f"{_COMPARES} analysis/length_unit",
-    "analysis/comparison": f"analysis/messages {_COMPARES}",
+    "analysis/comparison": f"own analysis/messages {_COMPARES}",
     "analysis/count analysis/count_methods": _COUNTS,
     "analysis/count_scalars analysis/count_table": _COUNTS,
+    "analysis/findings": f"analysis/links analysis/messages {_COMPARES}",
     "analysis/hypotheses analysis/lines": f"own {_COMPARES}",
     "analysis/singularity": "own analysis/results cli/singularity",
     "analysis/validate": "own analysis/results cli/validate",
@@ -172,4 +267,10 @@ NEAR = {
     "testing/conform/search": f"own testing/precision {_CASES}",
     "testing/conform/small_urdf testing/conform/subject": f"own {_CASES}",
     "testing/conform/urdf_cases": f"own testing/small_urdf {_CASES}",
+}
+
+# Claims about many modules, which are met last.
+LAST = {
+    "solve/": "defaults solve/shapes",
+    "solve/calibration/": "defaults solve/shapes solve/brief",
 }

@@ -28,8 +28,6 @@ from .mistakes.rpy_degrees import in_degrees, zeros_in_degrees
 from .reached import near, pose_differences
 from .unmatched_joints import MOST
 
-__all__ = ["compare"]
-
 
 def compare(
     a: Arm,
@@ -62,7 +60,7 @@ def compare(
     tol_position : float, default 1e-5
         Distance up to which two axes, frames or zero positions are the same, m. The place of an
         axis is judged at the point of it nearest to the arm's middle.
-    tol_rotation : float, default 1.75e-5
+    tol_rotation : float, default π/180000
         Angle up to which they are the same, rad (0.001 degrees).
     samples : int, default 200
         Number of random configurations, within a's limits, for the pose errors.

@@ -71,11 +71,11 @@ class JointComparison(Result):
     limits: tuple[float, float]
     axis_differs: bool
     zero_differs: bool
-    follows_a: str = ""
-    follows_b: str = ""
-    coupling_differs: bool = False
-    effect: float = 0.0
-    limit_numbers: tuple[float, float] = (0.0, 0.0)
+    follows_a: str
+    follows_b: str
+    coupling_differs: bool
+    effect: float
+    limit_numbers: tuple[float, float]
 
     @property
     def differs(self) -> bool:

@@ -13,8 +13,6 @@ from ...model.chain import Chain
 from ..axis_lines import Tolerances, prismatic
 from .alignment.hypotheses import Hypothesis
 
-__all__ = ["follows"]
-
 
 class Following(NamedTuple):
     """Text on what a joint follows in a and in b, "" where it moves by itself, and whether they

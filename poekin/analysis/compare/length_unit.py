@@ -9,8 +9,6 @@ from ...model.chain import Chain
 from ..axis_lines import prismatic, uncoupled_at_zero
 from .alignment.lines import lines
 
-__all__ = ["length_ratio", "rescaled", "to_one_unit"]
-
 RATIO = 1000.0
 SPAN = 5.0
 """The spread of an arm's axes differs by a factor of up to 2.6 between zero positions, measured

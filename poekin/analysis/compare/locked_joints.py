@@ -19,8 +19,6 @@ from ..axis_lines import Tolerances, sine, wrapped
 from .alignment.lines import Lines, lines
 from .length_unit import rescaled
 
-__all__ = ["held_positions", "index_without"]
-
 STEPS = 30
 """Steps of Levenberg-Marquardt: where two solutions coincide each halves the distance, from 1 rad
 to 1e-9.

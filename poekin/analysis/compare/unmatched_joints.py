@@ -15,8 +15,6 @@ from ..axis_lines import Tolerances, prismatic
 from .alignment.search import agreeing
 from .locked_joints import held_positions, index_without
 
-__all__ = ["droppable", "without"]
-
 MOST = 2
 """So many joints are tried to be dropped; of n joints that makes n (n - 1) / 2 pairs."""
 

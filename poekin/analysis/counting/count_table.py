@@ -18,8 +18,6 @@ from ...model.kinematics.programs import CheapestFrame
 from ...results import Result, plain
 from .count import Count, Counting, CountMethod, count
 
-__all__ = ["PRINTED", "CountRow", "CountTable", "count_table", "printed"]
-
 Charged = Literal["printed", "paper", "live", "everything"]
 
 PRINTED: dict[CountMethod, tuple[tuple[int, int], tuple[int, int]]] = {

@@ -16,8 +16,6 @@ from ...model.kinematics.arm import Arm
 from ...results import Result
 from .jacobian_part import ROWS, Part, generic_rank, moving_chain, scaled, svd
 
-__all__ = ["Manipulability", "Measures", "manipulability", "manipulability_gradient"]
-
 
 @dataclass(frozen=True, eq=False)
 class Measures(Result):

@@ -22,8 +22,6 @@ from ...results import Result
 from .jacobian_part import ROWS, TOLERANCE, Part, generic_rank, moving_chain, scaled, svd
 from .messages import motion_words, rate_words
 
-__all__ = ["Singularity", "singularity"]
-
 Unit = Literal["rad", "m", "rad and m"]
 
 ZERO = 1e-12

@@ -19,7 +19,6 @@ from ...progress_line import ProgressLine
 from ...solve.calibration.calibrate import calibrate
 from ...solve.calibration.calibration import Calibration
 from ...solve.calibration.exact.from_fk_result import FromFk
-from ...solve.calibration.measurements.header import Convention
 from ...solve.calibration.model.parameters import KINDS
 from ...solve.calibration.report import changes
 from ...solve.calibration.report.summary import MOST_OUTLIERS
@@ -33,6 +32,17 @@ from ..output import as_json, complain, name, say
 from . import exact as exact_pairs
 from . import measured
 from .measured import Measured, MeasurementOptions
+from .options.columns import (
+    Deg,
+    Format,
+    Ignore,
+    Mm,
+    Rename,
+    Repeats,
+    Unit,
+    convention_of,
+    listed,
+)
 from .outputs import ENDINGS, Outputs, say_written
 
 Texts = list[str] | None
@@ -62,6 +72,23 @@ Point = Annotated[
         "--point",
         metavar="X,Y,Z",
         help="A measured point of the tool, in the tip frame, m; may be repeated, of distances the first.",
+    ),
+]
+PointOrUnknown = Annotated[
+    Texts,
+    Option(
+        "--point",
+        metavar="X,Y,Z|unknown",
+        help="A measured point of the tool, in the tip frame, m; may be repeated, of distances the first. "
+        "unknown: all points are to be found.",
+    ),
+]
+SeparationsFile = Annotated[
+    str | None,
+    Option(
+        "--separations",
+        metavar="FILE.csv",
+        help="With --point unknown: known distances of points, columns from, to, distance, sigma.",
     ),
 ]
 Centre = Annotated[
@@ -115,34 +142,6 @@ OnRankDeficiency = Annotated[
 ]
 Folds = Annotated[int, Option("--folds", help="Parts that are held out in turn; 0: none.", min=0)]
 Seed = Annotated[int, Option("--seed", help="Of the drawing of these parts.", min=0)]
-Ignore = Annotated[
-    Texts,
-    Option("--ignore", metavar="COLUMN", help="A column to pass over; may be repeated."),
-]
-Rename = Annotated[
-    Texts,
-    Option(
-        "--rename",
-        metavar="COLUMN=NAME",
-        help="A column of the files under the name that it is to have: x_t=x; may be repeated.",
-    ),
-]
-Format = Annotated[
-    str | None,
-    Option(
-        "--format",
-        metavar="FORMAT",
-        help="What the columns of poses are: abc, wpr, ur, ..., as in ik (default: as their names say).",
-    ),
-]
-Mm = Annotated[
-    bool | None,
-    Option("--mm/--m", help="Lengths in the files, of --point and --centre in mm."),
-]
-Deg = Annotated[
-    bool | None,
-    Option("--deg/--rad", help="Angles in the files in degrees: joints, and those of --format."),
-]
 Output = Annotated[
     list[Path] | None,
     Option(
@@ -167,7 +166,8 @@ def command(
     tip: Tip = None,
     base: Base = None,
     kind: Kind = None,
-    point: Point = None,
+    point: PointOrUnknown = None,
+    separations: SeparationsFile = None,
     centre: Centre = None,
     frame: Frame = None,
     gravity: Gravity = None,
@@ -186,6 +186,8 @@ def command(
     format: Format = None,
     mm: Mm = None,
     deg: Deg = None,
+    unit: Unit = None,
+    repeats: Repeats = "keep",
     output: Output = None,
     convention: DhConvention = "standard",
     report: Report = None,
@@ -201,7 +203,9 @@ def command(
         check_place(place, ENDINGS)
     check_place(report, (".html", ".htm"))
     pages.check(draw)
-    check_apart([*outputs.paths, report, draw], model=file, measurements=files)
+    check_apart(
+        [*outputs.paths, report, draw], model=file, measurements=files, separations=separations
+    )
     choice(convention, CONVENTIONS, "convention")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
@@ -213,19 +217,21 @@ def command(
         sigma_angle,
         sigma_length,
         ignore or (),
-        Convention.of(format, mm, deg)._replace(rename=measured.names(rename)),
+        convention_of(format, mm, deg, unit, rename),
+        repeats,
+        separations,
     )
     options: dict[str, Any] = {
         "parameters": _kinds(parameters),
         "loss": loss,
-        "joints": _listed(joints),
+        "joints": listed(joints),
         "prior": _prior(prior_angle, prior_length),
         "on_rank_deficiency": on_rank_deficiency,
         "folds": folds,
         "seed": seed,
     }
     if exact:
-        exact_pairs.check(said, options | {"gravity": gravity})
+        exact_pairs.check(said, options | {"gravity": gravity, "repeats": repeats})
     of_fk: FromFk | None = None
     try:
         given = measured.read(files, chain, said)
@@ -263,7 +269,7 @@ def command(
 
 def _kinds(words: Sequence[str] | None) -> str | Sequence[str]:
     """The kinds of parameters that are asked for. Raises: InputError."""
-    kinds = tuple(_listed(words) or ("screws", "home"))
+    kinds = tuple(listed(words) or ("screws", "home"))
     if kinds == ("auto",):
         return "auto"
     for kind in kinds:
@@ -318,6 +324,7 @@ _OPTIONS = {
     "give radians (numpy.deg2rad)": "--deg says so",
     "(divide by 1000)": "(divide by 1000, or --mm, which is of sliding joints too)",
     "points: ": "--point: ",
+    "points=None": "--point unknown",
     "points=(": "--point (",
     "frame='unknown'": "--frame unknown",
     "centre=None": "no --centre",
@@ -325,6 +332,7 @@ _OPTIONS = {
     "prior={'rad'": "--prior-angle and --prior-length {'rad'",
     "rename=": "--rename",
     "rename: ": "--rename: ",
+    "units: ": "--unit: ",
     "parameters=": "--parameters",
     "conditions['gravity']": "--gravity",
     "joints=": "--joints",
@@ -342,11 +350,6 @@ def as_options(message: str) -> str:
         # a plain name as it is to be typed; any other in quotes, which a shell takes off
         message = message.replace(column[0], f"--ignore {column[2] or column[1]} passes it over")
     return message
-
-
-def _listed(words: Sequence[str] | None) -> list[str] | None:
-    """The names in a repeated option, each of which may hold several with commas between."""
-    return None if words is None else [part.strip() for word in words for part in word.split(",")]
 
 
 def _document(

@@ -19,7 +19,6 @@ from ...solve.calibration.design.choice import Choice
 from ...solve.calibration.design.choose import choose_poses
 from ...solve.calibration.design.exchange import CRITERIA, Criterion
 from ...solve.calibration.measurements.data import KINDS
-from ...solve.calibration.measurements.header import Convention
 from ...solve.calibration.measurements.measurement import Measurement
 from .. import array_files
 from ..formats.units import SaidUnits
@@ -27,22 +26,18 @@ from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
 from ..output import as_json, complain, heading, path_text, say
 from . import measured as measured_files
-from . import places
 from .calibrate import (
     Centre,
-    Deg,
-    Format,
-    Ignore,
     Joints,
-    Mm,
     Parameters,
     Point,
-    Rename,
     SigmaAngle,
     SigmaLength,
     as_options,
 )
 from .measured import MeasurementOptions
+from .options import places
+from .options.columns import Deg, Format, Ignore, Mm, Rename, Unit, convention_of, listed
 
 TABLES = (".csv", ".npy")
 EXAMPLES: dict[str, Any] = {"poses": np.eye(4)[None], "points": 0.0, "distances": [1.0]}
@@ -99,6 +94,7 @@ def command(
     format: Format = None,
     mm: Mm = None,
     deg: Deg = None,
+    unit: Unit = None,
     seed: Seed = 0,
     output: Output = None,
     json: Json = False,
@@ -107,7 +103,8 @@ def command(
     array_files.check_place(output, TABLES)
     given = None if candidates.isdecimal() else candidates
     array_files.check_apart([output], model=file, candidates=given, measurements=measured)
-    units = SaidUnits(mm, deg)
+    convention = convention_of(format, mm, deg, unit, rename)
+    units = SaidUnits(convention.mm, convention.deg)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     said = MeasurementOptions(
@@ -118,7 +115,7 @@ def command(
         sigma_angle,
         sigma_length,
         ignore or (),
-        Convention.of(format, mm, deg)._replace(rename=measured_files.names(rename)),
+        convention,
     )
     of_tool = places.tool_point(said)
     allowed = [places.box(box, "--box", units, of_tool), places.cone(cone, units, of_tool)]
@@ -130,8 +127,8 @@ def command(
                 n,
                 _candidates(candidates, chain, units),
                 measurements=sets,
-                parameters=cast(Any, _listed(parameters) or ("screws", "home")),
-                joints=_listed(joints),
+                parameters=cast(Any, listed(parameters) or ("screws", "home")),
+                joints=listed(joints),
                 criterion=cast(Criterion, criterion),
                 measured=before,
                 allowed=[place for place in allowed if place is not None],
@@ -142,11 +139,6 @@ def command(
     except (InputError, UnknownName) as fault:
         raise type(fault)(_as_options(str(fault))) from fault
     _give(robot.name, chain, found, output, json, units)
-
-
-def _listed(words: Sequence[str] | None) -> list[str] | None:
-    """The names in a repeated option, each of which may hold several with commas between."""
-    return None if words is None else [part.strip() for word in words for part in word.split(",")]
 
 
 def _candidates(text: str, chain: Chain, units: SaidUnits) -> Array | int:

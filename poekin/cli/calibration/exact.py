@@ -20,6 +20,7 @@ _DEFAULTS: dict[str, object] = {
     "prior": None,
     "on_rank_deficiency": "raise",
     "gravity": None,
+    "repeats": "keep",
 }
 """The options about the fit, as they are without any."""
 _NAMES = {"prior": "--prior-angle and --prior-length", "gravity": "--gravity"}

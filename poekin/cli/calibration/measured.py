@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
-from ...checks import positive
+from ...checks import choice, positive
 from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
@@ -15,10 +15,12 @@ from ...progress_line import ProgressLine
 from ...solve.calibration.measurements import data
 from ...solve.calibration.measurements.header import SI, Convention
 from ...solve.calibration.measurements.measurement import Measurement
+from ...solve.calibration.model.configurations import Averages, Repeats, averages
 from ..array_files import to_open
-from ..kinematics import poses
+from ..kinematics.poses import option_numbers
 from ..model import STANDARD_INPUT, STDIN
-from ..output import path_text
+from ..output import complain, path_text
+from . import reflectors
 
 
 class MeasurementOptions(NamedTuple):
@@ -32,6 +34,8 @@ class MeasurementOptions(NamedTuple):
     sigma_length: float | None
     ignore: Sequence[str]
     convention: Convention = SI
+    repeats: str = "keep"
+    separations: str | None = None
 
 
 class Measured(NamedTuple):
@@ -54,6 +58,7 @@ def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Mea
 
     Raises: what `data.read` does; InputError for options that do not fit.
     """
+    choice(options.repeats, get_args(Repeats), "--repeats")
     kinds = list(options.kind) or [None] * len(paths)
     if len(options.kind) == 1:
         kinds *= len(paths)
@@ -82,26 +87,41 @@ def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Mea
     readings = [np.empty((0, chain.dof))]
     sets: list[Measurement] = []
     sources: list[str] = []
+    columns = []
     for kind, table in zip(made, tables, strict=True):
         known = known_arguments(options, kind, len(table.layout.columns) // 3)
-        rows = np.arange(len(table.q)) + len(sources)
-        sets.append(data.make_measurement(table, kind, known).with_rows(rows))
-        readings.append(table.q)
-        sources += table.sources
-    return Measured(np.concatenate(readings), sets, sources, _conditions(tables, paths))
+        s = data.make_measurement(table, kind, known)
+        every = np.arange(len(table.q))
+        found = Averages(table.q, s, dict(table.conditions), every)
+        if options.repeats == "average":
+            found = averages(table.q, every, s, table.conditions)
+        rows = np.arange(len(found.q)) + len(sources)
+        sets.append(found.measurements.with_rows(rows))
+        readings.append(found.q)
+        columns.append(found.conditions)
+        sources += [table.sources[row] for row in found.first]
+    if options.repeats == "average":
+        count = sum(len(table.q) for table in tables)
+        complain(f"{count} rows are averaged: {len(sources)} configurations")
+    if reflectors.are_unknown(options.point):
+        sets += reflectors.with_separations(sets, paths, options.separations, options.convention)
+    return Measured(np.concatenate(readings), sets, sources, _conditions(columns, paths))
 
 
-def _conditions(tables: Sequence[data.MeasurementTable], paths: Sequence[str]) -> dict[str, Array]:
+def _conditions(
+    columns: Sequence[dict[str, Array]],
+    paths: Sequence[str],
+) -> dict[str, Array]:
     """Conditions of all rows. Raises: InputError where a file does not say what another one says."""
-    names = dict.fromkeys(name for table in tables for name in table.conditions)
-    for table, path in zip(tables, paths, strict=True):
+    names = dict.fromkeys(name for own in columns for name in own)
+    for own, path in zip(columns, paths, strict=True):
         for name in names:
-            if name not in table.conditions:
+            if name not in own:
                 raise InputError(
                     f"{path_text(path)}: expected a column {quote(name)}, as another file has one;"
                     f" --ignore {name} passes that over"
                 )
-    return {name: np.concatenate([table.conditions[name] for table in tables]) for name in names}
+    return {name: np.concatenate([own[name] for own in columns]) for name in names}
 
 
 def check_fit(options: MeasurementOptions, kinds: Sequence[str]) -> None:
@@ -112,6 +132,11 @@ def check_fit(options: MeasurementOptions, kinds: Sequence[str]) -> None:
             raise InputError(
                 f"--{name}: expected with {' or '.join(takers)} only, got {', '.join(dict.fromkeys(kinds))}"
             )
+    unknown = reflectors.are_unknown(options.point)
+    if unknown and "points" not in kinds:
+        raise InputError(f"--point unknown: expected with points only, got {', '.join(kinds)}")
+    if options.separations is not None and not unknown:
+        raise InputError("--separations: expected with --point unknown only")
     for option in ("sigma_angle", "sigma_length"):
         sigma = getattr(options, option)
         if sigma is not None:
@@ -138,7 +163,9 @@ def known_arguments(options: MeasurementOptions, kind: str, points: int) -> dict
     takes = _TAKES.get(kind, ())
     if options.sigma_length is not None:
         known["covariance"] = _covariance(options.sigma_angle, options.sigma_length, kind, points)
-    if options.point and "point" in takes:
+    if reflectors.are_unknown(options.point):
+        known |= {"points": reflectors.SHARED} if kind == "points" else {}
+    elif options.point and "point" in takes:
         positions = np.array([point(text, "--point", options) for text in options.point])
         # of several, distances are to the first
         known |= {"points": positions} if kind == "points" else {"point": positions[0]}
@@ -160,20 +187,6 @@ def _covariance(angle: float | None, length: float, kind: str, points: int) -> A
     return np.diag(np.square(deviations))
 
 
-def names(renamed: Sequence[str] | None) -> dict[str, str]:
-    """Names of columns, of words `COLUMN=NAME`. Raises: InputError."""
-    pairs = {}
-    for word in renamed or ():
-        column, _, wanted = word.partition("=")
-        if not column or not wanted:
-            raise InputError(
-                f"--rename: expected the column's name in the file, = and the name that it is to have, as"
-                f" x_t=x; got {quote(word)}"
-            )
-        pairs[column] = wanted
-    return pairs
-
-
 def point(text: str, option: str, options: MeasurementOptions) -> Array:
     """A point, in m, of an option that is in the unit of lengths."""
     p = vector(text, option)
@@ -182,7 +195,7 @@ def point(text: str, option: str, options: MeasurementOptions) -> Array:
 
 def vector(text: str, option: str) -> Array:
     """Three numbers, commas or blanks between them. Raises: InputError."""
-    values = poses.numbers(text.replace(",", " ").split(), f"{option}: number")
+    values = option_numbers(text, option)
     if len(values) != 3:
         raise InputError(f"{option}: three numbers expected (x,y,z in m), got {len(values)}")
     return values

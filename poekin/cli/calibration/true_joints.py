@@ -2,29 +2,53 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 
-from ...errors import InputError, join_names
-from ...formats.chain_toml import is_calibration
-from ...formats.content import pipes
+from ...errors import InputError, PoekinWarning, join_names
+from ...formats import chain_toml
+from ...formats.content import kinds
 from ...formats.emit.correction.python_text import python_function
-from ...formats.ros import packages
+from ...formats.text import toml_text
 from ...model.chain import Chain
-from ...solve.calibration.calibration import Calibration, load
+from ...solve.calibration.calibration import Calibration
 from ...solve.calibration.emission import correction
+from ...solve.calibration.report import toml_io
+from .. import model
 from ..output import complain
 
 
+@contextmanager
+def terms_are_told() -> Iterator[None]:
+    """Reading of a calibration without the warning that it has terms: they are written, or told."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", f".*: {chain_toml.TERMS}", PoekinWarning)
+        yield
+
+
 def with_terms(file: str) -> Calibration | None:
-    """The calibration in a FILE that is one with non-geometric terms; None of any other, and of a
-    pipe, which can be read once only. Raises: as `calibration.load`.
+    """The calibration in a FILE, of which the model was read, that is one with non-geometric terms; None
+    of any other. Raises: as `calibration.load`.
     """
-    path = os.fspath(packages.local_path(file))
-    if not path.lower().endswith(".toml") or pipes.is_pipe(path) or not is_calibration(path):
+    content = model.content(file)
+    if kinds.kind_of(content) != "toml":
         return None
-    found = load(path)
+    place = model.called(file)
+    text = kinds.decode(content, place)
+    if toml_text.parse(text, place).get("format") != chain_toml.FORMAT:
+        return None
+    found = Calibration(**vars(toml_io.read_text(text, place)))
     return found if found.error_model.terms else None
+
+
+def tell_of_terms(file: str, what: str) -> None:
+    """Tells of a calibration's terms where what is written takes, or gives, true joint values only."""
+    if with_terms(file) is not None:
+        complain(
+            f"warning: {chain_toml.TERMS}, of which {what} has nothing: its joint values are true ones, not"
+            " readings; without it, --lang c and python write true joints of readings too"
+        )
 
 
 def add_true_joints(
@@ -42,7 +66,7 @@ def add_true_joints(
         return
     if language not in ("c", "python"):
         complain(
-            "the calibration has non-geometric terms: the arm takes true joint values, and what makes"
+            f"warning: {chain_toml.TERMS}: the arm takes true joint values, and what makes"
             f" them of readings is written in c and python only, not in {language}"
         )
         return

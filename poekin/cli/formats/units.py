@@ -9,9 +9,10 @@ import numpy as np
 from typer import Option
 
 from ...formats.poses.read import said_units
-from ...formats.text.csv_header import CONVERSIONS, Columns
+from ...formats.text.csv_header import CONVERSIONS, COORDINATE, Columns
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.kinematics.degrees import TURN
 from ...model.readings.coupled import joint_values
 
 Mm = Annotated[
@@ -45,7 +46,7 @@ class SaidUnits(NamedTuple):
 
     def columns(self, chain: Chain) -> Columns:
         """Columns of a file of configurations."""
-        return Columns(chain.q_names, "coordinate", self.of(chain), self.said())
+        return Columns(chain.q_names, COORDINATE, self.of(chain), self.said())
 
     def header(self, chain: Chain) -> list[str]:
         """Names of the coordinates in a file that is written, with their units where those were
@@ -116,11 +117,15 @@ def _beyond(
     unit = units.of(chain)[k]
     which = ""
     if len(q) > 1:
-        which = f"{len(rows)} of {len(q)} configurations are beyond the {whose}limits; in the first, row {first}, "
+        which = (
+            f"{len(rows)} of {len(q)} configurations are beyond limits; in the first, row {first}, "
+        )
     cure = ""
-    if chain.is_angle(k) and units.deg is None:
+    if abs(q[first, k]) <= TURN:  # a small number is more likely meant as it stands
+        pass
+    elif chain.is_angle(k) and units.deg is None:
         cure = "; are these degrees? --deg says so"
-    if not chain.is_angle(k) and units.mm is None:
+    elif not chain.is_angle(k) and units.mm is None:
         cure = "; are these mm? --mm says so"
     name = f"{what}{chain.q_names[k]}"
     return f"{which}{name} = {value} {unit} is outside its {whose}limits, {least} to {most}{cure}"

@@ -37,7 +37,9 @@ Base = Annotated[
 ]
 Numbers = Annotated[
     list[str] | None,
-    Argument(metavar="Q...", help="The coordinates, in rad or m."),
+    Argument(
+        metavar="Q...", help="The coordinates, in rad or m; of one word, with commas between."
+    ),
 ]
 Input = Annotated[
     str | None,
@@ -49,7 +51,7 @@ Input = Annotated[
 ]
 Output = Annotated[
     Path | None,
-    Option("--output", help="Where the results go: a .csv, .npy or .json file."),
+    Option("-o", "--output", help="Where the results go: a .csv, .npy or .json file."),
 ]
 Seed = Annotated[int, Option("--seed", help="Seed of the random configurations.", min=0)]
 Json = Annotated[bool, Option("--json", help="Print JSON.")]
@@ -89,6 +91,8 @@ def take(
     Raises: what `model`, `Robot.chain` and reading do.
     """
     words = list(q or ())
+    if len(words) == 1:  # commas of more words could be decimal ones
+        words = poses.words_of(words[0])
     values = poses.numbers(words, "coordinate")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)

@@ -11,6 +11,7 @@ import typer
 from ...errors import InputError, quote
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from .. import array_files
+from ..formats.units import Deg, Mm, SaidUnits
 from ..output import name
 from .arm import Base, File, Input, Json, Numbers, Output, Results, Tip, compute, give, take
 
@@ -27,6 +28,8 @@ def command(
     tip: Tip = None,
     base: Base = None,
     given: Input = None,
+    mm: Mm = None,
+    deg: Deg = None,
     output: Output = None,
     json: Json = False,
 ) -> None:
@@ -36,7 +39,7 @@ def command(
     array_files.check_place(output)
     array_files.check_apart([output], model=file, configurations=given)
     which = parse_frame(frame, FRAME_NAMES)
-    arm = take(file, tip, base, q, given)
+    arm = take(file, tip, base, q, given, units=SaidUnits(mm, deg))
     chain = arm.chain
     values = compute(arm, lambda some: chain.jacobian(some, which), (6, chain.dof))
     kind = f"{which} Jacobian"

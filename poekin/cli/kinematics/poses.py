@@ -50,7 +50,7 @@ Input = Annotated[
 ]
 Output = Annotated[
     Path | None,
-    Option("--output", help="Where the joints go: a .csv, .npy or .json file."),
+    Option("-o", "--output", help="Where the joints go: a .csv, .npy or .json file."),
 ]
 Seed = Annotated[
     int,
@@ -91,7 +91,7 @@ def read(
                 f"either a pose or --input expected, got both ({quote(words[0])} and {quote(given)})"
             )
         return _read_file(given, chosen, units)
-    T = read_text(" ".join(words or ()), chosen, units.said(), "the pose")
+    T = read_text(" ".join(words), chosen, units.said(), "the pose") if words else ()
     if len(T) != 1:
         raise InputError(f"one pose expected, got {len(T)}; or --input with a file")
     return T
@@ -142,6 +142,16 @@ def numbers(words: Sequence[str], what: str) -> Array:
     return np.array(values, float)
 
 
+def words_of(text: str | None) -> list[str]:
+    """The words of an argument, commas or blanks between them."""
+    return (text or "").replace(",", " ").split()
+
+
+def option_numbers(text: str, option: str) -> Array:
+    """The numbers of an option. Raises: InputError."""
+    return numbers(words_of(text), f"{option}: number")
+
+
 def check_count(values: Array, chain: Chain, where: str = "", remedy: str = "") -> None:
     """Refuse other than one number for each coordinate. Raises: InputError."""
     if len(values) != chain.dof:
@@ -161,7 +171,7 @@ def coordinates(
     """
     if text is None:
         return None
-    values = numbers(text.replace(",", " ").split(), f"{option}: number")
+    values = option_numbers(text, option)
     check_count(values, chain, f"{option}: ")
     return units.to_si(values, chain)
 
@@ -173,10 +183,9 @@ def for_each(
     units: SaidUnits = SI,
 ) -> Array | float | None:
     """The numbers of an option with one for all coordinates or one for each, in rad and m."""
-    words = (text or "").replace(",", " ").split()
-    if len(words) != 1:
+    if text is None or len(words_of(text)) != 1:
         return coordinates(text, chain, option, units)
-    value = float(numbers(words, f"{option}: number")[0])
+    value = float(option_numbers(text, option)[0])
     if units.mm or units.deg:
         return units.to_si(np.full(chain.dof, value), chain)
     return value

@@ -14,8 +14,10 @@ from ...errors import InputError
 from ...view.view import view
 from .. import array_files
 from ..formats import draw as pages
+from ..formats.units import Deg, Mm, SaidUnits
 from ..output import as_json, heading, name, number, say, table
 from .arm import Base, File, Json, Numbers, Tip, take
+from .poses import words_of
 
 SINGULAR = 1
 
@@ -60,6 +62,8 @@ def command(
     base: Base = None,
     part: PartOption = None,
     tolerance: Tolerance = TOLERANCE,
+    mm: Mm = None,
+    deg: Deg = None,
     draw: pages.Draw = None,
     json: Json = False,
 ) -> None:
@@ -68,10 +72,10 @@ def command(
     """
     pages.check(draw)
     array_files.check_apart([draw], model=file)
-    words = (at or "").replace(",", " ").split()
+    words = words_of(at)
     if at is not None and not words:
         raise InputError("--at: coordinates expected, got nothing")
-    arm = take(file, tip, base, [*words, *(q or ())], None, many=False)
+    arm = take(file, tip, base, [*words, *(q or ())], None, many=False, units=SaidUnits(mm, deg))
     chain = arm.chain
     here = arm.q[0]
     result = singularity(chain, here, part=part.value if part else None, tolerance=tolerance)

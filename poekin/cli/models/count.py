@@ -54,7 +54,7 @@ def _show(counts: CountTable) -> None:
     )
     rows: list[tuple[object, ...]] = []
     for group in counts.groups:
-        rows.append((_title(group), *[""] * 7))
+        rows.append((_title(group),))
         for r in counts.of(group):
             cells = (*_cells(r.jacobian), *_cells(r.with_pose))
             rows.append(("  " + r.what, r.frame, *cells))

@@ -24,7 +24,7 @@ Convention = Annotated[
 ]
 Output = Annotated[
     Path | None,
-    Option("--output", help="Where the table goes: a .toml or .csv file."),
+    Option("-o", "--output", help="Where the table goes: a .toml or .csv file."),
 ]
 
 
@@ -83,8 +83,7 @@ def _show(chain: Chain, result: dh.FromChain) -> None:
             say(f"\n{what}:")
             matrix(np.where(np.abs(T) < nothing, 0.0, T))
     say()
-    plain = chain.nontrivial_coupling is None and not chain.offset.any()
-    if chain.dof != len(found) or not plain:
+    if chain.nontrivial_coupling is not None or chain.offset.any():
         say(
             "x are the joints' own values: what follows another joint does so by its ratio and offset"
         )

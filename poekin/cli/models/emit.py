@@ -21,7 +21,12 @@ from ...model.chain import Chain
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from ...model.robot import Robot
 from .. import array_files
-from ..calibration.true_joints import add_true_joints, with_terms
+from ..calibration.true_joints import (
+    add_true_joints,
+    tell_of_terms,
+    terms_are_told,
+    with_terms,
+)
 from ..kinematics.arm import Base, File, Tip
 from ..kinematics.jacobian import parse_frame
 from ..model import model
@@ -59,6 +64,7 @@ Language = Annotated[
 Output = Annotated[
     Path,
     Option(
+        "-o",
         "--output",
         help="A directory for the files (made where there is none); or a .py for python or jax, a .js or .mjs for "
         "javascript, a .cu for cuda.",
@@ -132,13 +138,15 @@ def command(
         _check_inverse(language, {"--frame": frame, "--float": single, "--all-links": all_links})
     accelerated = {"precision": precision, "measure": measure}
     _check_accelerated(language, accelerated)
-    robot = model(file)
+    with terms_are_told():
+        robot = model(file)
     origin = _origin(file, robot)
     name = robot.name if name is None else name
     ideal = None
     if all_links:
         of_chain = {"--tip": tip, "--base": base, "--frame": frame, "--idealise": idealise}
         _check_all_links(language, of_chain)
+        tell_of_terms(file, "--all-links")
         texts = {_file_name(name, language): emit.javascript(robot, origin=origin)}
     else:
         chain = robot.chain(base=base, tip=tip)
@@ -147,6 +155,7 @@ def command(
             chain = ideal.chain
             origin += f", idealised within {idealise:g} (rad and m)"
         if inverse:
+            tell_of_terms(file, "--ik")
             texts = emit.c_ik(chain, name=name, origin=origin).files
         else:
             which = parse_frame("hybrid" if frame is None else frame, FRAMES)

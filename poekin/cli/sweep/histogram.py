@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Annotated
 
-from typer import Exit, Option
+from typer import Option
 
 from ...progress_line import ProgressLine
 from ...sweep.maps.histogram import histogram
@@ -13,6 +13,8 @@ from ..kinematics.arm import Base, File, Json, Seed, Tip
 from ..model import model
 from ..output import as_json, number, say, table
 from .options import (
+    Drawn,
+    DrawnName,
     Measured,
     MeasureName,
     Samples,
@@ -39,6 +41,7 @@ def command(
     bins: Bins = 20,
     ends: Ends = None,
     samples: Samples = "1e7",
+    by: Drawn = DrawnName.configurations,
     sigma_angle: SigmaAngle = None,
     sigma_length: SigmaLength = None,
     self_collision: SelfCollisionFree = False,
@@ -49,8 +52,8 @@ def command(
     scheduler: Scheduler = None,
     json: Json = False,
 ) -> None:
-    """Numbers of configurations of FILE, drawn at random, by their measure. Exit code 0 done, 2
-    error.
+    """Numbers of configurations, or poses, of FILE, drawn at random, by their measure. Exit code 0
+    done, 2 error.
     """
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
@@ -61,7 +64,7 @@ def command(
             measure_from(measure, chain, sigma_angle, sigma_length),
             bins=bins,
             ends=ends,
-            samples=samples_from(chain, samples, seed),
+            samples=samples_from(chain, samples, seed, by),
             mask=mask,
             workers=workers,
             executor=runs,
@@ -69,12 +72,11 @@ def command(
         )
     if json:
         print(as_json(found.to_dict()))
-        raise Exit(0)
+        return
     say(f"{found.summary()}\n")
     edges = pairwise(found.edges)
     rows = [
         (number(low), number(high), count)
         for (low, high), count in zip(edges, found.counts.tolist(), strict=True)
     ]
-    table(("from", "to", "configurations"), rows, left=0)
-    raise Exit(0)
+    table(("from", "to", by.value), rows, left=0)

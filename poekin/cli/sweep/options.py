@@ -16,6 +16,7 @@ from ...sweep.masks.self_collision import SelfCollision
 from ...sweep.measures.measure import Measure
 from ...sweep.measures.names import measure_of
 from ...sweep.measures.pose_uncertainty import ErrorPart, PoseUncertainty
+from ...sweep.pose_samples import PoseSamples
 from ...sweep.samples import Random
 from ..output import path_text
 
@@ -29,8 +30,16 @@ class MeasureName(StrEnum):
     smallest_singular_value = "smallest_singular_value"
     limit_margin = "limit_margin"
     travel = "travel"
+    solutions = "solutions"
     position_error = "position_error"
     orientation_error = "orientation_error"
+
+
+class DrawnName(StrEnum):
+    """Kind of samples."""
+
+    configurations = "configurations"
+    poses = "poses"
 
 
 class KeepName(StrEnum):
@@ -43,9 +52,13 @@ class KeepName(StrEnum):
 
 Samples = Annotated[
     str,
-    Option("--samples", metavar="N", help="Number of configurations, as 10000000 or 1e8."),
+    Option("--samples", metavar="N", help="Number of samples, as 10000000 or 1e8."),
 ]
 Measured = Annotated[MeasureName, Option("--measure", help="What is kept of each cell.")]
+Drawn = Annotated[
+    DrawnName,
+    Option("--by", help="Draw configurations, or poses and take the best IK solution of each."),
+]
 Kept = Annotated[
     KeepName, Option("--keep", help="Keep the best, the worst or the mean measure of a cell.")
 ]
@@ -110,13 +123,14 @@ def count_from(text: str) -> int:
         number = float(text)
     except ValueError:
         number = 0.5
-    if not number.is_integer():
+    if not (number.is_integer() and number >= 1):
         raise InputError(
-            f"--samples: expected a whole number, as 10000000 or 1e8, got {path_text(text)}"
+            f"--samples: expected a whole number from 1 on, as 10000000 or 1e8, got {path_text(text)}"
         )
     return int(number)
 
 
-def samples_from(chain: Chain, text: str, seed: int) -> Random:
-    """Random configurations. Raises: InputError."""
-    return Random.of(chain, count_from(text), seed)
+def samples_from(chain: Chain, text: str, seed: int, by: DrawnName) -> Random | PoseSamples:
+    """Random configurations, or poses. Raises: InputError."""
+    kind = PoseSamples if by is DrawnName.poses else Random
+    return kind.of(chain, count_from(text), seed)

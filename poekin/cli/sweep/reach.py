@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
-from typer import Exit, Option
+from typer import Option
 
 from ...errors import InputError
 from ...progress_line import ProgressLine
@@ -40,9 +41,33 @@ Side = Annotated[
         help="Tell 12 SIDE² directions of the tool's z axis apart (4: 192 of them).",
     ),
 ]
+
+
+class TriedName(StrEnum):
+    """Kind of samples of a map."""
+
+    configurations = "configurations"
+    poses = "poses"
+    middles = "middles"
+
+
+Tried = Annotated[
+    TriedName,
+    Option(
+        "--by",
+        help="Draw configurations; or ask the IK of poses that are drawn, or of the middles of cells.",
+    ),
+]
+Turns = Annotated[
+    int, Option("--turns", min=1, help="Of middles: turns of the tool about its z axis in each.")
+]
 MapFile = Annotated[
     Path | None,
-    Option("--output", help="Where the map goes: a .npz file, or a .zarr directory (extra sweep)."),
+    Option(
+        "-o",
+        "--output",
+        help="Where the map goes: a .npz file, or a .zarr directory (extra sweep).",
+    ),
 ]
 StorePlace = Annotated[
     Path | None,
@@ -57,6 +82,8 @@ Resume = Annotated[
 def command(
     file: File,
     samples: Samples = "1e7",
+    by: Tried = TriedName.configurations,
+    turns: Turns = 1,
     resolution: Resolution = 0.05,
     side: Side = 0,
     measure: Measured = MeasureName.reach,
@@ -74,8 +101,8 @@ def command(
     scheduler: Scheduler = None,
     json: Json = False,
 ) -> None:
-    """Map of the cells that the tool of FILE reaches, from configurations drawn at random. Exit code
-    0 done, 2 error.
+    """Map of the cells that the tool of FILE reaches, from configurations drawn at random, or by
+    inverse kinematics. Exit code 0 done, 2 error.
     """
     array_files.check_apart([output], model=file)
     if output is not None:
@@ -92,6 +119,8 @@ def command(
             chain,
             resolution=resolution,
             samples=count_from(samples),
+            by=by.value,
+            turns=turns,
             side=side,
             measure=measure_from(measure, chain, sigma_angle, sigma_length),
             keep=keep.value,
@@ -113,4 +142,3 @@ def command(
             say(f"\n{mask.summary()}")
         if output is not None:
             say(f"\nthe map: {path_text(output)}")
-    raise Exit(0)

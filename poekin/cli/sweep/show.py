@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from typer import Argument, Exit
+from typer import Argument
 
 from ...sweep.maps.sweep_map import load_map
 from ..kinematics.arm import Json
@@ -19,7 +19,7 @@ def command(file: MapFile, json: Json = False) -> None:
     found = load_map(file)
     if json:
         print(as_json(found.to_dict()))
-        raise Exit(0)
+        return
     about = found.about
     say(f"{name(about['tip'])} in {name(about['base'])}\n{found.summary()}\n")
     heights = found.cells.centres()[0, 0, :, 2]
@@ -31,4 +31,3 @@ def command(file: MapFile, json: Json = False) -> None:
         if cubes
     ]
     table(("height of the layer (m)", "reached (m²)"), rows, left=0)
-    raise Exit(0)

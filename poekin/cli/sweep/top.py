@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from typer import Exit, Option
+from typer import Option
 
 from ...progress_line import ProgressLine
 from ...sweep.maps.top import top
@@ -12,6 +12,8 @@ from ..kinematics.arm import Base, File, Json, Seed, Tip
 from ..model import model
 from ..output import as_json, name, number, say, table
 from .options import (
+    Drawn,
+    DrawnName,
     KeepName,
     Kept,
     Measured,
@@ -36,6 +38,7 @@ def command(
     count: Count = 10,
     keep: Kept = KeepName.best,
     samples: Samples = "1e7",
+    by: Drawn = DrawnName.configurations,
     sigma_angle: SigmaAngle = None,
     sigma_length: SigmaLength = None,
     self_collision: SelfCollisionFree = False,
@@ -46,8 +49,8 @@ def command(
     scheduler: Scheduler = None,
     json: Json = False,
 ) -> None:
-    """Configurations of FILE with the best measures of all that are drawn at random. Exit code 0 done,
-    2 error.
+    """Configurations, or poses, of FILE with the best measures of all that are drawn at random. Exit
+    code 0 done, 2 error.
     """
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
@@ -58,7 +61,7 @@ def command(
             measure_from(measure, chain, sigma_angle, sigma_length),
             count,
             keep=keep.value,
-            samples=samples_from(chain, samples, seed),
+            samples=samples_from(chain, samples, seed, by),
             mask=mask,
             workers=workers,
             executor=runs,
@@ -66,11 +69,10 @@ def command(
         )
     if json:
         print(as_json(found.to_dict()))
-        raise Exit(0)
+        return
     say(f"{found.summary()}\n")
     rows = [
         [number(value), *(number(x) for x in q)]
         for value, q in zip(found.values, found.q, strict=True)
     ]
     table(["measure", *map(name, chain.q_names)], rows, left=0)
-    raise Exit(0)

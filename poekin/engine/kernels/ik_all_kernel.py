@@ -16,7 +16,6 @@ from ...formulas.inverse import least_squares
 from ..jit.kernel import kernel
 from .ik_codes import POSE, SOLVED
 from .ik_kernels import (
-    ERROR,
     STEP,
     KernelProblem,
     descend,
@@ -89,11 +88,10 @@ def is_singular(ones, free, work):
     """
     J = work.J
     H = work.H
-    rows = work.rows
+    step = work.rows[STEP]
     m = J.shape[1]
-    store_row(rows[ERROR], (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    least_squares.normal_equations(J, rows[ERROR], ones, 1e-30, free, m, H, rows[STEP])
-    least_squares.solve(H, rows[STEP], m)
+    least_squares.normal_equations(J, ones, ones, 1e-30, free, m, H, step)
+    least_squares.solve(H, step, m)
     low = math.inf
     high = 0.0
     for i in range(m):
@@ -113,18 +111,18 @@ def condition_bound(free, work):
     J = work.J
     trace = 0.0
     product = 1.0
-    count = 0
+    count = 0.0
     for i in range(J.shape[1]):
         if free[i] != 0.0:
-            count += 1
+            count += 1.0
             pivot = work.H[i, i]
             if not pivot > 0.0:  # after one of 0 they are no numbers
                 return 0.0
             product *= pivot
             for r in range(6):
                 trace += J[r, i] * J[r, i]
-    if count < 2 or trace == 0.0:
-        return float(count) * min(trace, 1.0)
+    if trace == 0.0:
+        return 0.0
     product *= (count - 1.0) ** (count - 1.0) / trace**count
     return math.sqrt(product)
 

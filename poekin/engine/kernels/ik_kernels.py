@@ -130,11 +130,15 @@ def error_parts(task, axis, T, target, J, e):
     return position, rotation
 
 
+def axis_of(options):
+    """The tool's direction or the plane's normal."""
+    return options[AXIS : AXIS + 3]
+
+
 def errors_at(problem, task, target, q, T, J, rows):
     """Pose, Jacobian and error at q into T, J and `rows`; returns the error's parts (m, rad)."""
     run_one(problem.arm, q, T, J, rows[CODE])
-    axis = problem.options[AXIS : AXIS + 3]
-    return error_parts(task, axis, T, target, J, rows[ERROR])
+    return error_parts(task, axis_of(problem.options), T, target, J, rows[ERROR])
 
 
 def choose_free(problem, weights, q, J, rows):
@@ -156,7 +160,7 @@ def descend(problem, target, q, work):
     m = len(q)
     options = problem.options
     task = int(options[TASK])
-    weights = options[WEIGHTS : WEIGHTS + 6]
+    weights = options[WEIGHTS:]
     T = work.T
     J = work.J
     H = work.H
@@ -278,9 +282,8 @@ def solve_one(arm, table, target, q0, limits, fixed, options, tolerances, period
     set_motions(table, q, sines, cosines, shifts)
     T = work.T
     store_matrix(T, forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
-    axis = options[AXIS : AXIS + 3]
-    none = work.J[:, :0]
-    position, rotation = error_parts(int(options[TASK]), axis, T, target, none, work.rows[0])
+    e = work.rows[ERROR]
+    position, rotation = error_parts(int(options[TASK]), axis_of(options), T, target, work.J, e)
     set_info(info, position, rotation, taken, ended)
     return int(position <= tolerances[0] and rotation <= tolerances[1])
 
@@ -291,10 +294,10 @@ def pose_errors(table, q, targets, task, axis, errors):
     any chain; a part that the task does not ask for is 0.
     """
     sines, cosines, shifts = scratch(table)
-    T = np.empty((4, 4))
-    J = np.empty((6, 0))
-    e = np.empty(6)
+    work = scratch_of_try(0)
+    T = work.T
+    e = work.rows[ERROR]
     for k in range(q.shape[0]):
         set_motions(table, q[k], sines, cosines, shifts)
         store_matrix(T, forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
-        store_row(errors[k], error_parts(task, axis, T, targets[k], J, e))
+        store_row(errors[k], error_parts(task, axis, T, targets[k], work.J, e))

@@ -43,7 +43,9 @@ class BindingWriter(CallWriter):
         """target op= value."""
         target = node.target
         read = ast.parse(ast.unparse(target), mode="eval").body
-        old = self.expression(ast.copy_location(read, node))
+        for part in ast.walk(read):
+            ast.copy_location(part, node)
+        old = self.expression(read)
         value = self.arithmetic(node, node.op, old, self.expression(node.value))
         match target:
             case ast.Name(name):

@@ -27,8 +27,10 @@ _BEGINNINGS: tuple[tuple[Kind, re.Pattern[str]], ...] = (
 )
 
 
-def decode(content: bytes, place: str) -> str:
-    """Text of bytes in UTF-8, or UTF-16 with its mark. Raises: ModelError with the byte."""
+def decode(content: str | bytes, place: str) -> str:
+    """The text, of bytes in UTF-8, or UTF-16 with its mark. Raises: ModelError with the byte."""
+    if isinstance(content, str):
+        return content
     encoding = "utf-8-sig"
     if content.startswith(_UTF_16):
         encoding = "utf-16"

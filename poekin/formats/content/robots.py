@@ -94,9 +94,7 @@ def from_content(
     kind = kinds.kind_of(content)
     if kind == "xml":
         return _from_xml(content, name)
-    text = content
-    if isinstance(text, bytes):
-        text = kinds.decode(text, place)
+    text = kinds.decode(content, place)
     if not text.strip():
         raise ModelError(f"{place}: the text is empty")
     if kind is None:

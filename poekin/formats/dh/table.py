@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import math
-import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
@@ -14,9 +13,10 @@ from numpy.typing import ArrayLike
 
 from ... import html_page
 from ...checks import REQUIRED, choice
-from ...errors import InputError, PoekinWarning, ShapeError, quote, safe_repr
+from ...errors import InputError, ShapeError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.checks import bounds, distinct_names, finite, one_pose, read_only
+from ...model.provenance import warn
 from ...model.readings.statements import Statements, canonical
 from ..common.limits import UNBOUNDED, Interval
 
@@ -199,7 +199,7 @@ class Table:
                     f"table {quote(str(name))}: {column} = {angle:g} of joint {quote(names[large[0]])}"
                     f" is more than a turn: degrees? Expected are rad, as np.radians makes them"
                 )
-                warnings.warn(message, PoekinWarning, stacklevel=2)
+                warn(message)
         for field, value in values.items():
             object.__setattr__(self, field, value)
 

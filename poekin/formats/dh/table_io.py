@@ -12,6 +12,7 @@ from __future__ import annotations
 import csv
 import io
 import os
+import re
 from collections import Counter
 from collections.abc import Callable
 from typing import Any
@@ -31,6 +32,7 @@ from ...model.readings.statements import statements_by_joint
 from ..common.limits import UNBOUNDED
 from ..text import toml_text, xml
 from ..text.atomic_write import FilePath, write_whole
+from ..text.csv_dialect import separator_of
 from ..text.numbers import real
 from ..text.toml_text import Keys
 from .table import COLUMNS, KINDS, Row, Table, check_table
@@ -198,11 +200,14 @@ def _row(keys: Keys) -> Row:
 
 
 def _from_csv(text: str, place: str, stem: str) -> Table:
-    reader = csv.DictReader(io.StringIO(text), strict=True)
+    separator = ";" if separator_of(text.partition("\n")[0]) == ";" else ","
+    reader = csv.DictReader(io.StringIO(text), strict=True, delimiter=separator)
     try:
         header = list(reader.fieldnames or ())
         found = _CsvTable(place, header)
         for record in reader:
+            if separator == ";":
+                record = _with_points(record)
             found.take(record, f"{place}:{reader.line_num}")
     except csv.Error as fault:
         raise ModelError(f"{place}:{max(reader.line_num, 1)}: {fault}") from fault
@@ -216,6 +221,16 @@ def _from_csv(text: str, place: str, stem: str) -> Table:
         stem,
         tuple(found.coupling),
     )
+
+
+def _with_points(record: dict[Any, Any]) -> dict[Any, Any]:
+    """A line with decimal commas as points, but for the joint's name."""
+    return {
+        column: re.sub(r"(?<=\d),(?=\d)", ".", cell)
+        if column in (*COLUMNS, "lower", "upper", "pose") and isinstance(cell, str)
+        else cell
+        for column, cell in record.items()
+    }
 
 
 class _CsvTable:

@@ -9,7 +9,6 @@ from typing import Literal
 import numpy as np
 
 from ...checks import REQUIRED, choice
-from ...errors import InputError, safe_repr
 from ...model.kinematics.arm import Arm
 from ...model.kinematics.pose_jacobian import AnyFrame
 from .assignments import angle_assignments, comment, result_assignments
@@ -116,11 +115,9 @@ def c(
     True
     """
     choice(real, tuple(KINDS), "real")
-    if not isinstance(name, str):
-        raise InputError(f"name: expected a text, got {safe_repr(name)}")
+    word = identifier(name)
     literal, kind = KINDS[real]
     arm = compile_checked(chain, frame)
-    word = identifier(name)
     functions = [CFunction(word, real, literal, task, arm.dof) for task in make_tasks(arm, frame)]
     head = [
         f"{word}: the kinematics of one serial arm as straight-line C99, in {real}. Generated: change the arm instead.",

@@ -78,9 +78,9 @@ def selftest(
         width=max(dof, 1),
         columns=max(6 * dof, 1),
         tolerance=f"{wanted.tolerance:.3g}",
-        q=_rows(wanted.q, literal),
-        T=_rows(wanted.T, double),
-        J=_rows(wanted.J, double),
+        q=table_rows(wanted.q, literal),
+        T=table_rows(wanted.T),
+        J=table_rows(wanted.J),
         calls="\n".join(line for task in tasks for line in _calls(word, task)),
     )
 
@@ -92,6 +92,7 @@ def _calls(word: str, task: EmittedFunction) -> list[str]:
     ]
 
 
-def _rows(values: np.ndarray, literal: WriteNumber) -> str:
+def table_rows(values: np.ndarray, literal: WriteNumber = double) -> str:
+    """Rows of an array in C."""
     rows = [row.ravel().tolist() or [0.0] for row in values]  # C has no empty arrays
     return ",\n".join("    {" + ", ".join(map(literal, row)) + "}" for row in rows)

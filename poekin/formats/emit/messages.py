@@ -28,7 +28,9 @@ _LONGEST = 80
 
 
 def identifier(name: str) -> str:
-    """Identifier of C and C++ made from a name: a ... z, 0 ... 9 and single _, at most 40."""
+    """Identifier of C and C++ made from a name: a ... z, 0 ... 9 and single _, at most 40. Raises: InputError."""
+    if not isinstance(name, str):
+        raise InputError(f"name: expected a text, got {safe_repr(name)}")
     word = re.sub("[^a-z0-9]+", "_", name.lower()).strip("_")[:40].strip("_")
     if not word[:1].isalpha():
         word = f"arm_{word}".strip("_")
@@ -129,10 +131,7 @@ def header_lines(arm: CompiledChain, frame: AnyFrame) -> list[str]:
         f"Base frame {quote_ascii(chain.base)}, tip frame {quote_ascii(chain.tip)};"
         f" {_many(len(chain.kinds), 'joint')}, {_many(chain.dof, 'coordinate')}. Units: rad, m.",
         "",
-        *(
-            coordinate_line(k, name, chain.is_angle(k), chain.limits[k])
-            for k, name in enumerate(chain.q_names)
-        ),
+        *coordinate_lines(chain),
         *_readings(chain),
         *[""] * bool(chain.dof),
         "T = (R, p; 0, 1), 4 x 4 row by row: the pose of the tip in the base frame; p in m.",
@@ -149,7 +148,7 @@ def robot_lines(robot: Robot) -> list[str]:
         f" {_many(robot.dof, 'coordinate')}. Units: rad, m.",
         "",
         *(
-            coordinate_line(k, name, kinds[name] != "prismatic", robot.limits[k])
+            _coordinate_line(k, name, kinds[name] != "prismatic", robot.limits[k])
             for k, name in enumerate(robot.q_names)
         ),
         *_coupling_lines(robot.coupling),
@@ -179,7 +178,15 @@ def _coupling_lines(statements: Sequence[str]) -> list[str]:
     ]
 
 
-def coordinate_line(k: int, name: str, angle: bool, limits: np.ndarray) -> str:
+def coordinate_lines(chain: Chain) -> list[str]:
+    """Lines on the coordinates of a chain."""
+    return [
+        _coordinate_line(k, name, chain.is_angle(k), chain.limits[k])
+        for k, name in enumerate(chain.q_names)
+    ]
+
+
+def _coordinate_line(k: int, name: str, angle: bool, limits: np.ndarray) -> str:
     """Line on a coordinate: its unit, its name, and its limits where it has any."""
     words = f"  q[{k}]  {'rad' if angle else 'm'}  {quote_ascii(name)}"
     lower, upper = limits

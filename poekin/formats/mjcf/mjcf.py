@@ -232,10 +232,12 @@ def without_dynamics(spec: Any, mujoco: ModuleType) -> list[str]:
     for element in (*spec.geoms, *spec.sites):
         element.material = ""
     spec.nkey = 0  # MuJoCo is slow to make keyframes, and makes as many as are asked for
-    spec.compiler.fusestatic = False
-    spec.compiler.inertiafromgeom = int(mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE)
-    spec.compiler.settotalmass = -1.0
-    spec.compiler.boundmass = 0.0
+    compiler = spec.compiler
+    compiler.fusestatic = False
+    compiler.inertiafromgeom = int(mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE)
+    compiler.settotalmass = -1.0
+    compiler.boundmass = 0.0
+    compiler.boundinertia = 0.0
     for body in spec.bodies:
         # A body that moves needs a mass, and the geoms that gave it one are gone.
         given = body.explicitinertial and is_mass(body.mass, body.ipos.tolist())

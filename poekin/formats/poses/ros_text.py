@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-import warnings
 from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import InputError, PoekinWarning, quote
+from ...errors import InputError
 from ...groups.arrays import Array
-from ..text.numbers import real
+from ...model.provenance import warn
+from ..text.numbers import expected
 from .layout import PoseLayout, layout
 from .places import places
 
@@ -55,7 +55,7 @@ def _messages(text: str, where: str) -> Read:
             )
     stands = places(text, found, where)
     rows = [
-        [_number(word, place) for word in match.groups()]
+        [expected(word, place) for word in match.groups()]
         for match, place in zip(found.values(), stands, strict=True)
     ]
     return Read(np.array(rows, float), layout("ros"), stands)
@@ -74,7 +74,7 @@ def _tf2_echo(text: str, where: str) -> Read:
             if p and turn:
                 place = _place(text, start, where)
                 words = f"{p[1]},{turn[1]}".split(",")
-                row = [_number(word.strip(), place) for word in words]
+                row = [expected(word.strip(), place) for word in words]
                 if len(row) != len(chosen.columns):
                     raise InputError(f"{place}: the block of tf2_echo is cut")
                 _warn_of_digits(words, chosen, place)
@@ -92,20 +92,11 @@ def _warn_of_digits(words: list[str], chosen: PoseLayout, place: str) -> None:
         angle = np.degrees(4 * half)  # four components, each off by half: 2 |dq| = 4 half
     else:
         angle = 3 * half
-    warnings.warn(
+    warn(
         f"{place}: tf2_echo prints {decimals} decimals: each coordinate is known to {1e3 * half:.2g}"
-        f" mm, the rotation to {angle:.2g}°",
-        PoekinWarning,
-        stacklevel=2,
+        f" mm, the rotation to {angle:.2g}°"
     )
 
 
 def _place(text: str, at: int, where: str) -> str:
     return places(text, [at], where)[0]
-
-
-def _number(word: str, place: str) -> float:
-    value = real(word)
-    if value is None:
-        raise InputError(f"{place}: a number expected, got {quote(word)}")
-    return value

@@ -68,9 +68,7 @@ def without_mark(content: str | bytes, name: str) -> str | bytes:
     if not end.rstrip().endswith(_ENDS):
         return content
     place = Source(name).place()
-    text = content
-    if isinstance(text, bytes):
-        text = kinds.decode(text, place)
+    text = kinds.decode(content, place)
     mark = _MARK.search(text)
     if mark:
         text = text[: mark.end(1)]

@@ -9,10 +9,10 @@ from __future__ import annotations
 import csv
 import itertools
 import re
-import warnings
 from collections.abc import Iterable, Iterator, Sequence
 
-from ...errors import FileError, InputError, PoekinWarning, quote
+from ...errors import FileError, InputError, quote
+from ...model.provenance import warn
 from .numbers import real
 
 Line = tuple[int, list[str]]
@@ -130,8 +130,6 @@ def _with_points(rows: Iterable[Line], where: str) -> Iterator[Line]:
                 )
         yield number, cells
     if as_thousands and not as_decimals:
-        warnings.warn(
-            f"{where}: every comma is before three digits; read as decimal commas (1,234 is 1.234)",
-            PoekinWarning,
-            stacklevel=2,
+        warn(
+            f"{where}: every comma is before three digits; read as decimal commas (1,234 is 1.234)"
         )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +24,10 @@ _UNITS = {
     **dict.fromkeys(("deg", "degree", "degrees", "°"), "deg"),
     **dict.fromkeys(("s", "sec", "second", "seconds"), "s"),
 }
+_STEMS = ("q", "j", "joint", "joint_", "axis", "axis_", "theta")
+_NUMBERED = re.compile(rf"({'|'.join(_STEMS)})(\d+)(?![^\W_])", re.IGNORECASE)
+COORDINATE = "coordinate"
+"""What messages call the columns of coordinates."""
 _SAME_KIND = {"m": "mm", "mm": "m", "rad": "deg", "deg": "rad"}
 Conversion = Callable[[np.ndarray], np.ndarray]
 CONVERSIONS: dict[tuple[str, str], Conversion] = {
@@ -32,6 +36,37 @@ CONVERSIONS: dict[tuple[str, str], Conversion] = {
     ("deg", "rad"): np.deg2rad,
     ("rad", "deg"): np.rad2deg,
 }
+
+
+def numbered(count: int) -> tuple[str, ...]:
+    """q1 ... qm, the names that coordinates have where a file does not use their own."""
+    return tuple(f"q{i + 1}" for i in range(count))
+
+
+def coordinate_names(q_names: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
+    """Names that a file may have for the coordinates: q1 ... qm, the chain's own, and others that are
+    numbered from 1 or from 0.
+    """
+    count = len(q_names)
+    own = {name.casefold() for name in q_names}
+    found = [numbered(count), q_names]
+    for stem in _STEMS:
+        for start in (1, 0):
+            names = tuple(f"{stem}{i + start}" for i in range(count))
+            if own.isdisjoint(names):
+                found.append(names)
+    return tuple(dict.fromkeys(found))
+
+
+def numbered_coordinates(words: Iterable[str]) -> int:
+    """Number of coordinates that a header's words name by numbers, as `coordinate_names` has them, with
+    or without a unit.
+    """
+    found: dict[str, set[str]] = {}
+    for word in words:
+        if coordinate := _NUMBERED.match(word):
+            found.setdefault(coordinate[1].casefold(), set()).add(coordinate[2])
+    return max(map(len, found.values()), default=0)
 
 
 class Columns(NamedTuple):
@@ -56,6 +91,17 @@ class Columns(NamedTuple):
         """Columns of a file that has the first ones, too."""
         units = ("s",) * len(self.first) + self.units
         return self._replace(names=self.first + self.names, units=units)
+
+    def as_named(self, words: Sequence[str]) -> Columns:
+        """Columns of a file that numbers the coordinates, where its words, with or without units, do."""
+        if self.what != COORDINATE:
+            return self
+        every = coordinate_names(self.names)
+        each = tuple(dict.fromkeys(itertools.chain(*every)))
+        known = {heading.name for heading in headings(words, each)}
+        own_first = (self.names, *every)
+        names = next((some for some in own_first if known.issuperset(some)), self.names)
+        return self._replace(names=names)
 
     def without_last(self) -> Columns:
         """Columns of a file that leaves the last ones out."""

@@ -16,13 +16,13 @@ from typing import NamedTuple, TextIO
 
 import numpy as np
 
-from ...errors import FileError, InputError, escape_unprintable, quote
+from ...errors import FileError, InputError, escape_unprintable
 from ...results import Progress
 from . import csv_dialect, csv_header
 from .atomic_write import FilePath, reason
 from .csv_dialect import Line
 from .csv_header import Columns
-from .numbers import real
+from .numbers import expected, real
 
 AT_ONCE = 10_000
 """Lines after which progress is said, and that are written together."""
@@ -80,12 +80,12 @@ def read(
     """
     lines = csv_dialect.split(_bounded(stream, where), where, columns.names)
     top = next(lines, None)
-    chosen = _in_order(columns.names)
-    if top is not None:
-        line, cells = top
-        chosen = _chosen(cells, columns, f"{where}:{line}")
-        if not chosen.is_header:
-            lines = itertools.chain([top], lines)
+    if top is None:
+        raise InputError(f"{where}: rows of numbers expected, the file is empty")
+    line, cells = top
+    chosen = _chosen(cells, columns, f"{where}:{line}")
+    if not chosen.is_header:
+        lines = itertools.chain([top], lines)
     rows, numbers = _rows(lines, chosen, where, progress, size)
     for k, function in chosen.conversions.items():
         rows[:, k] = function(rows[:, k])
@@ -158,13 +158,10 @@ class _Chosen(NamedTuple):
     conversions: Mapping[int, Callable[[np.ndarray], np.ndarray]] = {}
 
 
-def _in_order(names: Sequence[str]) -> _Chosen:
-    return _Chosen(range(len(names)), len(names), _name_list(names))
-
-
 def _chosen(cells: Sequence[str], columns: Columns, here: str) -> _Chosen:
     """The columns that a file is read by, of its first line."""
     words = [cell.strip() for cell in cells]
+    columns = columns.as_named(words)
     known = (*columns.first, *columns.names, *columns.besides)
     headings = csv_header.headings(words, known)
     given = {heading.name for heading in headings}
@@ -183,7 +180,8 @@ def _chosen(cells: Sequence[str], columns: Columns, here: str) -> _Chosen:
         )
     if len(words) == len(columns.without_last().names):
         columns = columns.without_last()
-    return _in_order(columns.names)
+    names = columns.names
+    return _Chosen(range(len(names)), len(names), _name_list(names))
 
 
 def _rows(
@@ -206,7 +204,7 @@ def _rows(
                 f"{where}:{line}: {columns.width} values expected{columns.names},"
                 f" got {len(cells)}{_cure(cells, columns.width)}"
             )
-        values.extend(_real(cells[i], f"{where}:{line}, column {i + 1}") for i in chosen)
+        values.extend(expected(cells[i], f"{where}:{line}, column {i + 1}") for i in chosen)
         numbers.append(line)
         if progress is not None and len(numbers) % AT_ONCE == 0:
             progress(done, size)
@@ -245,13 +243,6 @@ def _cure(cells: Sequence[str], width: int) -> str:
     if len(cells) != 2 * width or not all(_WHOLE.fullmatch(cell) for cell in cells):
         return ""
     return "; with decimal commas, write ; between the columns"
-
-
-def _real(cell: str, where: str) -> float:
-    value = real(cell)
-    if value is None:
-        raise InputError(f"{where}: a number expected, got {quote(cell)}")
-    return value
 
 
 def _name_list(names: Sequence[str]) -> str:

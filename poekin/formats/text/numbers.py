@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from ...errors import InputError, quote
+
 
 def real(text: str) -> float | None:
     """The number that a text says, nan and inf among them, or None where it says none.
@@ -17,6 +19,14 @@ def real(text: str) -> float | None:
         return float(text)
     except ValueError:
         return None
+
+
+def expected(text: str, place: str) -> float:
+    """The number that a text is. Raises: InputError where it is none."""
+    value = real(text)
+    if value is None:
+        raise InputError(f"{place}: a number expected, got {quote(text)}")
+    return value
 
 
 def shortest(values: Iterable[float]) -> str:

@@ -41,7 +41,8 @@ def warn_of_degrees(
         most = np.where(unlimited, MANY, np.maximum(bounds * radians, TURN))
         beyond = sizes * radians > most
     for k in np.flatnonzero(beyond.reshape(-1, len(names)).any(axis=0))[:1]:
+        size = "two turns" if unlimited[k] else "a turn, and beyond its limits"
         warn(
-            f"{what}: {quote(names[k])} is more than a turn, and beyond its limits; if these are"
-            " degrees, np.radians makes radians of them"
+            f"{what}: {quote(names[k])} is more than {size}; if these are degrees, np.radians makes"
+            " radians of them"
         )

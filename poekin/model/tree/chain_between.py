@@ -19,14 +19,18 @@ from .tree import path
 LARGEST = 64_000_000
 
 
-def only_leaf(parts: RobotParts, leaves: tuple[str, ...]) -> str:
-    """Leaf of a robot that has no other. Raises: InputError that lists them."""
+def only_leaf(parts: RobotParts, leaves: tuple[str, ...], base: str) -> str:
+    """Leaf of a robot that has no other, to which a chain from base leads. Raises: InputError."""
+    fault = ""
     if len(leaves) != 1:
-        names = join_names(leaves, 20)
-        raise InputError(
-            f"{parts.place.place()}: tip must be given, there are several leaves: {names}"
-        )
-    return leaves[0]
+        fault = f"there are several leaves: {join_names(leaves, 20)}"
+    elif leaves == (base,) and len(parts.links) > 1:
+        fault = "the base is the only leaf"
+    if not fault:
+        return leaves[0]
+    if base in leaves:
+        fault += f"; the base is {quote(base)}: chain(tip={quote(base)}) ends there"
+    raise InputError(f"{parts.place.place()}: tip must be given, {fault}")
 
 
 def chain_between(

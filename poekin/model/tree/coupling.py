@@ -85,7 +85,7 @@ def shared_limits(
     own = bounds[coupling.master]
     lower = np.full(len(own), -np.inf)
     upper = np.full(len(own), np.inf)
-    followers = joints[(coupling.coordinate[joints] >= 0) & (coupling.ratio[joints] != 0)]
+    followers = joints[_follow(coupling, joints)]
     with np.errstate(over="ignore"):  # a bound beyond the largest number is no bound
         moved = bounds[followers] - coupling.shift[followers, None]
         ends = moved / coupling.ratio[followers, None]
@@ -104,13 +104,18 @@ def shared_velocity_limits(
 ) -> np.ndarray:
     """Greatest |dq| (m,) that keeps each of `joints` (numbers) within its own of `velocities`."""
     shared = np.full(len(coupling.master), np.inf)
-    follows = (coupling.coordinate[joints] >= 0) & (coupling.ratio[joints] != 0)
+    follows = _follow(coupling, joints)
     followers = joints[follows]
     with np.errstate(over="ignore"):  # a velocity beyond the largest number is no bound
         own = velocities[follows] / np.abs(coupling.ratio[followers])
     own = np.maximum(own, SLOWEST)
     np.minimum.at(shared, coupling.coordinate[followers], own)
     return shared
+
+
+def _follow(coupling: Coupling, joints: np.ndarray) -> np.ndarray:
+    """Which of the joints move with a coordinate."""
+    return (coupling.coordinate[joints] >= 0) & (coupling.ratio[joints] != 0)
 
 
 def warn_of_torn_limits(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, overload
 
@@ -10,15 +9,17 @@ from numpy.typing import ArrayLike
 
 from ...analysis.compare.compare import compare
 from ...analysis.compare.comparison import Comparison
+from ...errors import quote
 from ...formats import dh
 from ...formats.dh.from_chain import FromChain
 from ...formats.emit.c import CSource
 from ...formats.relink import relinked
-from ...formats.text.atomic_write import write_whole
+from ...formats.text.atomic_write import FilePath, write_whole
 from ...formats.urdf_text import Into, to_urdf
 from ...groups.arrays import Array
 from ...model.coordinates import coordinates
 from ...model.robot import Robot
+from ...results import brief
 from . import compensation, emission
 from .compensation import Command
 from .emission import Language
@@ -74,9 +75,9 @@ class Calibration(CalibrationData):
         those in axes of the tool; None where it was loaded from a file, which does not hold the
         measurements.
     diagnosis : ResidualDiagnosis or None
-        Effects that the residuals show; None as `residuals`.
-    evidence : FitEvidence or None
-        Measurements, fit and conditions that the diagnosis is made of; None as `residuals`.
+        Effects that the residuals show; None of a file that an older poekin wrote.
+    evidence : FitEvidence, SavedEvidence or None
+        Measurements, fit and conditions that the diagnosis is made of; of a file the diagnosis itself.
     terms : tuple of TermGain
         Gain on held-out readings of each non-geometric term that is in the fit, and with
         `parameters="auto"` of those that are not.
@@ -311,7 +312,7 @@ class Calibration(CalibrationData):
         """
         return dh.from_chain(self.chain, convention=convention)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: FilePath) -> None:
         """Write all of it as TOML (extra `formats`), whole or not at all.
 
         `calibration.load` reads it back to the last bit, and `pk.load` the calibrated chain as a
@@ -333,7 +334,7 @@ class Calibration(CalibrationData):
 
     def report(
         self,
-        path: str | os.PathLike[str],
+        path: FilePath,
         title: str | None = None,
         sources: Sequence[str] | None = None,
     ) -> None:
@@ -359,6 +360,10 @@ class Calibration(CalibrationData):
         """
         write_whole(path, html_report.html(self, title, sources).encode())
 
+    def __repr__(self) -> str:
+        arm = f"{quote(self.chain.base)} -> {quote(self.chain.tip)}"
+        return brief(self, f"{arm}, {summary.headline(self)}")
+
     def summary(self) -> str:
         """Errors before and after, what could be identified, outliers and warnings, as text."""
         return summary.text_of(self)
@@ -368,7 +373,7 @@ class Calibration(CalibrationData):
         return document.document(self)
 
 
-def load(path: str | os.PathLike[str], terms: Sequence[Term] = ()) -> Calibration:
+def load(path: FilePath, terms: Sequence[Term] = ()) -> Calibration:
     """Calibration in a file that `Calibration.save` wrote.
 
     Parameters
@@ -381,7 +386,8 @@ def load(path: str | os.PathLike[str], terms: Sequence[Term] = ()) -> Calibratio
     Returns
     -------
     found : Calibration
-        Equal to the one that was saved to the last bit.
+        Equal to the one that was saved to the last bit, with its terms, masses and diagnosis; but
+        without the measurements, so that `residuals` is None.
 
     Raises
     ------

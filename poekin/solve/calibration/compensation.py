@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, escape_unprintable
 from ...groups.arrays import Array
+from ...groups.vectors import translation_part
+from ...results import brief
 from ..ik.ik import ik
 from .result import CalibrationData
 from .terms.conditions import later_conditions
@@ -31,6 +33,13 @@ class Command(NamedTuple):
 
     q: Array
     T: Array
+
+    def __repr__(self) -> str:
+        if self.q.ndim > 1:
+            return brief(self, f"readings and poses of shape {self.q.shape} and {self.T.shape}")
+        readings = ", ".join(f"{x:.6g}" for x in self.q)
+        place = ", ".join(f"{x:.6g}" for x in translation_part(self.T))
+        return brief(self, f"q = ({readings}), where the nominal arm is at ({place})")
 
 
 def true_joints(found: CalibrationData, q: Array, conditions: Mapping[str, Any] | None) -> Array:

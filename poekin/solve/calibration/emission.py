@@ -10,14 +10,14 @@ import numpy as np
 from ...checks import choice
 from ...engine.straight_line.program import Angles, Program, program
 from ...engine.straight_line.trace import Graph
-from ...errors import InputError, escape_unprintable, safe_repr
+from ...errors import InputError, escape_unprintable
 from ...formats.emit.c import CSource
 from ...formats.emit.correction.c_text import c_text
 from ...formats.emit.correction.correction import Correction
 from ...formats.emit.correction.python_text import python_text
-from ...formats.emit.messages import quote_ascii
+from ...formats.emit.messages import identifier, quote_ascii
 from ...groups.arrays import Array
-from ...groups.vectors import norms
+from ...groups.vectors import normalised
 from .compensation import true_joints
 from .result import CalibrationData
 from .terms.conditions import at_rest, drift_source
@@ -32,11 +32,10 @@ _UNITS = {"payload": "kg", "temperature": "K", "time": "s"}
 def emit(found: CalibrationData, language: Language, name: str, origin: str) -> str | CSource:
     """See `Calibration.emit`."""
     choice(language, get_args(Language), "language")
-    if not isinstance(name, str):
-        raise InputError(f"name: expected a text, got {safe_repr(name)}")
+    word = identifier(name)
     made = correction(found)
     if language == "c":
-        return c_text(made, name, origin)
+        return c_text(made, word, origin)
     return python_text(made, origin)
 
 
@@ -108,7 +107,7 @@ def _example(column: Column, found: CalibrationData, rng: np.random.Generator) -
     if column.name == "approach":
         return np.sign(values)
     if column.name == "gravity":
-        return values / norms(values)[:, None]
+        return normalised(values)
     return found.error_model.reference[column.name] + values
 
 

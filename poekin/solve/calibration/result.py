@@ -17,7 +17,7 @@ from ...results import Result
 from .diagnostics import uncertainty
 from .diagnostics.base_and_tool import FrameEstimate, frame_estimates
 from .diagnostics.cross_validation import CrossValidation
-from .diagnostics.effects.diagnosis import FitEvidence, ResidualDiagnosis
+from .diagnostics.effects.diagnosis import FitEvidence, ResidualDiagnosis, SavedEvidence
 from .diagnostics.identification import Identification
 from .diagnostics.uncertainty import CONFIGURATIONS, Workspace
 from .fit.losses import LossName
@@ -75,21 +75,18 @@ class CalibrationData(Result):
     verdict: tuple[str, ...] = ()
     residuals: ResidualVectors | None = field(default=None, repr=False)
     terms: tuple[TermGain, ...] = ()
-    evidence: FitEvidence | None = field(default=None, repr=False)
+    evidence: FitEvidence | SavedEvidence | None = field(default=None, repr=False)
 
     @property
     def diagnosis(self) -> ResidualDiagnosis | None:
-        """Effects that the residuals show; None of a calibration out of a file.
-
-        Such a one has no measurements.
-        """
+        """Effects that the residuals show; None where neither measurements nor a file tell."""
         if self.evidence is None:
             return None
         return self.evidence.diagnosis
 
     @property
     def tool_and_base(self) -> tuple[FrameEstimate, ...]:
-        """Frames that a controller with the nominal arm is told; none of a calibration out of a file.
+        """Frames that a controller with the nominal arm is told; none where `diagnosis` is None.
 
         The base in the frame that was measured in and the tool in its tip frame, with which the
         nominal arm is nearest to the calibrated one; and the unknown frames.

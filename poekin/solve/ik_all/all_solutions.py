@@ -108,7 +108,7 @@ class AllSolutions(Result):
 
         Says how sure it is that they are all; of a batch each is made when it is asked for.
         """
-        if self.counts.ndim == 0:
+        if not self.counts.ndim:
             return self._sentence(0)
         return LazySequence(self.counts.size, self._sentence)
 
@@ -227,12 +227,12 @@ class AllSolutions(Result):
         text : str
             One sentence.
         """
-        if self.counts.ndim == 0:
+        if not self.counts.ndim:
             return self.explanation
         return f"{len(self.q)} solutions of {self.counts.size} targets, by {self.method}"
 
     def _parts(self, rows: np.ndarray) -> np.ndarray | Sequence[np.ndarray]:
-        return rows if self.counts.ndim == 0 else Ragged(rows, self.counts.ravel())
+        return Ragged(rows, self.counts.ravel()) if self.counts.ndim else rows
 
     def _sentence(self, k: int) -> str:
         if self.evidence is not None:
@@ -241,7 +241,7 @@ class AllSolutions(Result):
         return f"{s} solution{'s' * (s != 1)}"
 
     def __repr__(self) -> str:
-        if self.counts.ndim == 0:
+        if not self.counts.ndim:
             return f"<AllSolutions by {self.method}: {self.explanation}>"
         return (
             f"<AllSolutions of {self.counts.size} targets by {self.method}: {len(self.q)} in all>"

@@ -309,11 +309,7 @@ def _searched(
     reached = (errors <= accepted(question.given)).all(axis=1)
     if not reached.all():
         errors = errors[reached]
-        places = places._replace(
-            q=places.q[reached],
-            owner=places.owner[reached],
-            number=places.number[reached],
-        )
+        places = places.chosen(np.flatnonzero(reached))
     exact = solvers is not None and solvers.is_exact
     listing = Listing(places, errors, found.tally(exact))
     return ListedPart(np.arange(len(rows)), listing)

@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from ...analysis.axis_lines import line_angle, nearest_point, place, sine
 from ...groups.arrays import Array
 from ...groups.vectors import angular_part, linear_part, norm
 from ...model.chain_data import ChainData
@@ -94,14 +95,15 @@ def _misfits_at(chain: ChainData, first: int) -> Iterator[Misfit]:
     three = chain.screws[first : first + 3]
     last = len(chain.kinds) - 3
     w = three[:, :3]
-    angle = max(_angle(a, b) for a, b in combinations(w, 2))
-    neighbours = min(_sine(w[0], w[1]), _sine(w[1], w[2]))
+    angle = max(line_angle(a, b) for a, b in combinations(w, 2))
+    neighbours = min(sine(w[0], w[1]), sine(w[1], w[2]))
     if neighbours > _SLANT:
         point = meeting_point(three)
         off = max(_distance(S, point) for S in three)
         family = Family("meeting", first, first < last - first)
         yield Misfit(family, 0.0, off, off <= EXACT * chain.reach)
-    apart = min(_distance(three[0], _foot(three[1])), _distance(three[2], _foot(three[1])))
+    foot = place(three[1])
+    apart = min(_distance(three[0], foot), _distance(three[2], foot))
     if apart > _SLANT * chain.reach:
         family = Family("parallel", first, first > last - first)
         yield Misfit(family, angle, 0.0, angle <= EXACT)
@@ -137,29 +139,10 @@ def _rank(family: Family, n: int) -> int:
 
 def meeting_point(screws: Array) -> Array:
     """The point (3,) that is nearest to revolute axes (k, 6), in least squares."""
-    w = angular_part(screws)
-    across = np.eye(3) - w[:, :, None] * w[:, None]
-    feet = np.cross(w, linear_part(screws))
-    start = feet.mean(axis=0)
     # Axes almost parallel meet far away: what they leave free stays near.
-    right = (across @ (feet - start)[..., None]).ravel()
-    moved, *_ = np.linalg.lstsq(across.reshape(-1, 3), right, rcond=1e-3)
-    return start + moved
-
-
-def _foot(S: Array) -> Array:
-    return np.cross(angular_part(S), linear_part(S))
+    return nearest_point(screws, place(screws).mean(axis=0), 1e-3)
 
 
 def _distance(S: Array, point: Array) -> float:
     """Distance of a point from a revolute axis."""
     return norm(np.cross(angular_part(S), point) + linear_part(S))
-
-
-def _sine(w: Array, u: Array) -> float:
-    return norm(np.cross(w, u))
-
-
-def _angle(w: Array, u: Array) -> float:
-    """Angle between two lines whatever their directions, 0 to π/2 rad."""
-    return float(np.arctan2(_sine(w, u), abs(float(w @ u))))

@@ -17,8 +17,6 @@ from ..ik_all.structure import MOST_JOINTS, Family, Misfit, all_misfits, misfits
 from .neighbours import intersecting, locked, parallel
 from .result import Assumption, IKKind, IKStructure, LockedStructure, axes_of, degrees, mm
 
-__all__ = ["ik_structure"]
-
 NEAR_ANGLE = math.radians(2)
 """Angle up to which axes are taken for nearly parallel, rad."""
 NEAR_DISTANCE = 0.01

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...analysis.axis_lines import sine
 from ...groups import se3
 from ...groups.arrays import Array
 from ...groups.vectors import angular_part, linear_part, norm
@@ -13,11 +14,11 @@ from ..ik_all.structure import EXACT
 
 def parallel(chain: Chain, i: int) -> bool:
     """Whether the axes of joints i and i + 1, from 0, are parallel to rounding; both turn."""
-    if _slides(chain, i) or _slides(chain, i + 1):
+    if "prismatic" in chain.kinds[i : i + 2]:
         return False
     w = chain.screws[i, :3]
     u = chain.screws[i + 1, :3]
-    return norm(np.cross(w, u)) <= EXACT
+    return sine(w, u) <= EXACT
 
 
 def intersecting(chain: Chain, i: int) -> bool:
@@ -40,10 +41,6 @@ def locked(chain: Chain, k: int, value: float) -> Chain:
         joint_names=[chain.joint_names[i] for i in kept],
         pitches=chain.pitches[kept],
     )
-
-
-def _slides(chain: Chain, i: int) -> bool:
-    return chain.kinds[i] == "prismatic"
 
 
 def _common_normal(A: Array, B: Array) -> float:

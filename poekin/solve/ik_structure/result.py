@@ -10,8 +10,6 @@ from ...errors import quote
 from ...model.chain import Chain
 from ...results import Result
 
-__all__ = ["Assumption", "IKKind", "IKMethod", "IKStructure", "LockedStructure"]
-
 IKKind = Literal[
     "spherical wrist",
     "spherical shoulder",

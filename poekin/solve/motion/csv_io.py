@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,17 +12,16 @@ from ...errors import InputError, ShapeError, safe_repr
 from ...formats.poses import pose_rows
 from ...formats.poses.layout import PoseFormat, QuaternionOrder, layout
 from ...formats.text import csv_rows
-from ...formats.text.atomic_write import write_whole
-from ...formats.text.csv_header import Columns
+from ...formats.text.atomic_write import FilePath, write_whole
+from ...formats.text.csv_header import COORDINATE, Columns
 from ...groups.arrays import Array, numbers, poses
 from ...model.chain import Chain
 
-Path = str | os.PathLike[str]
 TIME = "time"
 
 
 def read_poses(
-    path: Path,
+    path: FilePath,
     format: PoseFormat,
     *,
     quaternion: QuaternionOrder | None = None,
@@ -68,7 +66,7 @@ def read_poses(
 
 
 def write_poses(
-    path: Path,
+    path: FilePath,
     T: ArrayLike,
     format: PoseFormat,
     *,
@@ -115,7 +113,7 @@ def write_poses(
     write_whole(path, csv_rows.text(chosen.columns, pose_rows.to_rows(T, chosen)).encode())
 
 
-def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array | None]:
+def read_joints(path: FilePath, names: Chain | Sequence[str]) -> tuple[Array, Array | None]:
     """Configurations, and times where it has them, from a CSV file with one of them a line.
 
     A first line may name the columns, in any order; with a further column `time`, the first or in
@@ -153,14 +151,14 @@ def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array 
     names = _names(names)
     more = () if TIME in names else (TIME,)
     besides = velocity_columns(names)
-    rows, _, _ = _read(path, Columns(names, "coordinate", units, besides=besides, first=more))
+    rows, _, _ = _read(path, Columns(names, COORDINATE, units, besides=besides, first=more))
     if rows.shape[1] > len(names):
         return rows[:, 1:], rows[:, 0]
     return rows, None
 
 
 def write_joints(
-    path: Path,
+    path: FilePath,
     q: ArrayLike,
     names: Chain | Sequence[str],
     *,
@@ -245,6 +243,6 @@ def joint_units(names: Any) -> tuple[str, ...]:
     return tuple("rad" if names.is_angle(k) else "m" for k in range(names.dof))
 
 
-def _read(path: Path, columns: Columns) -> tuple[Array, np.ndarray, str]:
+def _read(path: FilePath, columns: Columns) -> tuple[Array, np.ndarray, str]:
     with csv_rows.opened(path) as (stream, where, _):
         return *csv_rows.read(stream, columns, where), where

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ... import svg
-from ...formats.text.atomic_write import write_whole
+from ...formats.text.atomic_write import FilePath, write_whole
 from ...model.chain import Chain
-from .csv_io import Path, joints_over_time
+from .csv_io import joints_over_time
 
 
 def plot_joints(
@@ -20,7 +20,7 @@ def plot_joints(
     *,
     times: ArrayLike | None = None,
     breaks: Sequence[int] = (),
-    path: Path | None = None,
+    path: FilePath | None = None,
 ) -> str:
     """Plot of each coordinate over time, or over the number of the point, one below the other.
 

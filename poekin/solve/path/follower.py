@@ -245,7 +245,7 @@ class Follower:
         within = np.clip(found, *self.problem.domain.limits.T)
         q[:done] = within
         rounding = WITHIN * (1 + np.abs(found))
-        apart = np.any(np.abs(found - within) > rounding, axis=-1)
+        apart = np.any(np.abs(found - within) > rounding, axis=1)
         return _until(np.asarray(apart), done)
 
     def _kernel(

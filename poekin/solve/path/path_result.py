@@ -12,6 +12,7 @@ import numpy as np
 from ...analysis.dexterity.jacobian_part import scaled, svd
 from ...analysis.dexterity.singularity import singularity
 from ...errors import InputError, quote
+from ...formats.text.atomic_write import FilePath
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.readings.coupled import joint_values
@@ -19,7 +20,7 @@ from ...results import Result
 from ..ik.solution import BAD_TARGET, Solution
 from ..ik.task import Task
 from ..joint_units import joint_units
-from ..motion.csv_io import Path, write_joints
+from ..motion.csv_io import write_joints
 from ..motion.parameterization.time_optimal import time_optimal
 from ..motion.plot import plot_joints
 from ..motion.trajectory.trajectory import Trajectory
@@ -200,7 +201,7 @@ class PathResult(Result):
         value = self.inverse_condition
         return tuple(intervals(value < NEAR_SINGULAR, value, -value, NEAR_SINGULAR))
 
-    def to_csv(self, path: Path) -> None:
+    def to_csv(self, path: FilePath) -> None:
         """Writes q, and times where there are any, as `motion.read_joints` reads it.
 
         Parameters
@@ -243,7 +244,7 @@ class PathResult(Result):
             raise InputError(f"time_optimal: expected a path without a break; {fault}")
         return time_optimal(self.chain, self.q, acceleration=acceleration, speed=speed)
 
-    def plot(self, path: Path | None = None) -> str:
+    def plot(self, path: FilePath | None = None) -> str:
         """Plot of the joints over time, as `motion.plot_joints` draws it.
 
         Parameters

@@ -5,6 +5,8 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ...errors import InputError
 from ...model.chain import Chain
 from ..masks.self_collision import SelfCollision
@@ -15,6 +17,13 @@ if TYPE_CHECKING:
     from ...engine.straight_line.program import Program
 
 _KEPT = 16
+_NO_PAIRS = np.empty(0, np.int64)
+_NO_RADII = np.empty(0)
+
+
+def mask_numbers(mask: SelfCollision | None) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of links and radii of spheres for the kernels; of no mask none."""
+    return (_NO_PAIRS, _NO_RADII) if mask is None else mask.numbers()
 
 
 # by the chain's and the measure's numbers: a worker gets both anew with each part

@@ -14,12 +14,14 @@ from ...engine.jit.threads import processors
 from ...errors import InputError
 from ...results import Progress
 from ..maps.sweep_map import SweepMap, map_of
+from ..pose_samples import NumberedPoses
 from ..sweep import Sweep
 from .ranges import Range, Ranges
 from .store import Store
 from .totals import Totals, timed_part
 
 _CHUNK = 2**22  # samples a part at least: some tenths of a second
+_OF_POSE = 64  # configurations that take as long as a pose, at least
 _OF_CELL = 4  # samples a part for each cell of the map
 _GIVEN = 8  # workers of an executor, where nobody says how many it has
 _BYTES = {False: 8, True: 24}  # of a cell, without and with a measure
@@ -64,8 +66,9 @@ def run(
         The sweep.
     chunk : int, optional
         Number of samples that are run, and kept, at a time; by default four for each cell of the
-        map, 4194304 at least, so that a part costs more than the map that it comes in. An executor
-        runs several in a task of some tenths of a second, unless there is a store.
+        map, 4194304 at least, so that a part costs more than the map that it comes in; of poses one
+        for sixteen cells, 65536 at least. An executor runs several in a task of some tenths of a
+        second, unless there is a store.
     workers : int, optional
         Number of threads, by default one for each processor; of an executor its workers, which are
         given twice as many parts at a time, by default 16.
@@ -109,6 +112,8 @@ def run_totals(sweep: Sweep, **options: Unpack[RunOptions]) -> Totals:
     chunk = options.get("chunk")
     if chunk is None:
         chunk = max(_CHUNK, _OF_CELL * sweep.cells.count)
+        if isinstance(sweep.samples, NumberedPoses):
+            chunk //= _OF_POSE
     workers = options.get("workers")
     executor = options.get("executor")
     store = options.get("store")

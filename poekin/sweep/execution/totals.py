@@ -11,12 +11,16 @@ import numpy as np
 
 from ...groups.arrays import Array
 from ..bins import TopList
+from ..pose_samples import NumberedPoses
+from ..samples import Samples
+from ..solutions import best_solutions
 from ..sweep import KeepRule, Sweep
-from .fused import fused
+from .fused import fused, mask_numbers
 
 NO_MEASURE = -np.inf
 NO_SAMPLE = -1
 _AT_ONCE = 2**30  # samples that the kernel adds to a sum at once
+_POSES = 2**11  # poses that are solved at once
 _HALF = 32  # bits of a sum's lower half
 _FINE = 2.0**-40  # unit of a sum
 _NONE = np.empty(0)
@@ -62,36 +66,65 @@ class Totals:
 
     def run(self, first: int, last: int) -> None:
         """Adds samples first ... last - 1."""
+        samples = self.sweep.samples
+        for start in range(first, last, _AT_ONCE):
+            end = min(start + _AT_ONCE, last)
+            if isinstance(samples, NumberedPoses):
+                self._add_poses(samples, start, end)
+            else:
+                self._add_configurations(samples, start, end)
+            if self.rule == "sum":
+                self._carry(slice(None))
+
+    def _add_configurations(self, samples: Samples, first: int, last: int) -> None:
         from ...engine.kernels.sweep import sweep_kernel  # which imports Numba
 
         sweep = self.sweep
-        samples = sweep.samples
-        cells = sweep.cells
         measure = sweep.measured
-        is_sum = self.rule == "sum"
-        # the code is held until the calls are over
+        # the code is held until the call is over
         code = fused(sweep.chain, measure, sweep.mask)
-        pairs, radii = (_NO_SUMS, _NONE) if sweep.mask is None else sweep.mask.numbers()
-        for start in range(first, last, _AT_ONCE):
-            self.outside += sweep_kernel.swept.call(
-                code.address,
+        self.outside += sweep_kernel.swept.call(
+            code.address,
+            first,
+            last,
+            samples.numbers(),
+            samples.bounds,
+            sweep.cells.numbers(),
+            sweep.cells.place(),
+            measure.whole_numbers(sweep.chain, sweep.sign),
+            measure.numbers(sweep.chain),
+            *mask_numbers(sweep.mask),
+            *self._kept(),
+        )
+
+    def _add_poses(self, samples: NumberedPoses, first: int, last: int) -> None:
+        from ...engine.kernels.sweep import pose_kernel  # which imports Numba
+
+        sweep = self.sweep
+        measure = sweep.measured
+        # whole blocks wherever a range begins: where ik_all searches, it begins by the place in its batch
+        for start in range(first - first % _POSES, last, _POSES):
+            end = min(start + _POSES, samples.count)
+            T = samples.poses(np.arange(start, end))
+            found = best_solutions(sweep.chain, T, measure, sweep.mask)
+            self.outside += pose_kernel.kept.call(
                 start,
-                min(start + _AT_ONCE, last),
-                samples.numbers(),
-                samples.bounds,
-                cells.numbers(),
-                cells.place(),
+                max(first - start, 0),
+                min(last - start, len(T)),
+                T,
+                found.chosen,
+                sweep.cells.numbers(),
+                sweep.cells.place(),
                 measure.whole_numbers(sweep.chain, sweep.sign),
-                measure.numbers(sweep.chain),
-                pairs,
-                radii,
-                self.counts,
-                _NONE if is_sum else self.best,
-                self.attained,
-                self.best if is_sum else _NO_SUMS,
+                found.values,
+                *self._kept(),
             )
-            if is_sum:
-                self._carry(slice(None))
+
+    def _kept(self) -> tuple[np.ndarray, ...]:
+        """The arrays that a kernel adds to: counts, best, attained, sums."""
+        if self.rule == "sum":
+            return self.counts, _NONE, self.attained, self.best
+        return self.counts, self.best, self.attained, _NO_SUMS
 
     def part(self) -> SweepPart:
         """The cells that are not empty."""

@@ -19,7 +19,8 @@ from ..execution.run import RunOptions, run_totals
 from ..masks.self_collision import SelfCollision
 from ..measures.measure import Measure
 from ..measures.names import LABELS, MeasureName
-from ..samples import Samples, samples_of
+from ..pose_samples import NumberedPoses, is_of_poses, samples_of
+from ..samples import Samples
 from ..sweep import Keep, Sweep
 from .top import top
 
@@ -59,7 +60,8 @@ class MeasureHistogram(Result):
             Lines such as "manipulability: 5 % below 0.01, half below 0.05, 95 % below 0.1".
         """
         label = LABELS[self.about["measure"]]
-        lines = [f"{self.counts.sum()} configurations, {self.outside} more outside of the bins"]
+        what = "reached poses" if is_of_poses(self.about["samples"]) else "configurations"
+        lines = [f"{self.counts.sum()} {what}, {self.outside} more outside of the bins"]
         if self.counts.any():
             below = np.cumsum(self.counts) / self.counts.sum()
             low, half, high = (
@@ -76,7 +78,7 @@ def histogram(
     *,
     bins: int = 100,
     ends: tuple[float, float] | None = None,
-    samples: int | Samples = 10_000_000,
+    samples: int | Samples | NumberedPoses = 10_000_000,
     mask: SelfCollision | None = None,
     **options: Unpack[RunOptions],
 ) -> MeasureHistogram:
@@ -93,7 +95,8 @@ def histogram(
     ends : (float, float), optional
         Ends of the bins, in SI units; by default those of 100 000 configurations.
     samples : int or Samples, default 10000000
-        Number of random configurations, or `Random`, `Sobol` or `Grid` ones.
+        Number of random configurations, or `Random`, `Sobol` or `Grid` ones; or `PoseSamples`, or a
+        `PoseGrid`, whose measures are those of their best solutions.
     mask : SelfCollision, optional
         Configurations that it leaves out count nowhere.
     **options
@@ -136,7 +139,9 @@ def histogram(
     return MeasureHistogram(sweep.describe(), edges, totals.counts, totals.outside)
 
 
-def _tried(chain: Chain, samples: Samples, measure: Measure | MeasureName) -> tuple[float, float]:
+def _tried(
+    chain: Chain, samples: Samples | NumberedPoses, measure: Measure | MeasureName
+) -> tuple[float, float]:
     """Least and largest measure of the first samples, with some room."""
     few = replace(samples, count=min(_TRIED, samples.count))
     values = []

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import os
+from typing import Literal, get_args
 
-import numpy as np
-
-from ...checks import positive
-from ...groups.vectors import translation_part
-from ...model.chain import Chain
+from ...checks import choice, positive
+from ...errors import InputError, safe_repr
 from ...model.kinematics.arm import Arm, chain_of
 from ...results import Progress
 from ..cells import Cells
@@ -16,9 +14,12 @@ from ..execution.run import Executor, run
 from ..masks.self_collision import SelfCollision
 from ..measures.measure import Measure
 from ..measures.names import MeasureName
+from ..pose_samples import PoseGrid, PoseSamples, reached_box
 from ..samples import Random
 from ..sweep import Keep, Sweep
 from .sweep_map import SweepMap
+
+Drawn = Literal["configurations", "poses", "middles"]
 
 _TRIED = 100_000
 _MORE = 2  # cubes beyond what the tried samples reach
@@ -29,6 +30,8 @@ def reach(  # noqa: PLR0913 - options by keyword
     *,
     resolution: float = 0.05,
     samples: int = 10_000_000,
+    by: Drawn = "configurations",
+    turns: int = 1,
     side: int = 0,
     measure: Measure | MeasureName = "reach",
     keep: Keep = "best",
@@ -43,7 +46,8 @@ def reach(  # noqa: PLR0913 - options by keyword
 ) -> SweepMap:
     """Map of the cells of space, and of the tool's directions, that an arm reaches.
 
-    Configurations are drawn evenly within the limits; each counts in the cell of its pose.
+    Configurations are drawn evenly within the limits; each counts in the cell of its pose. Or poses
+    are tried, and count in their cells where inverse kinematics has a solution.
 
     Parameters
     ----------
@@ -52,18 +56,25 @@ def reach(  # noqa: PLR0913 - options by keyword
     resolution : float, default 0.05
         Side of a cube, m.
     samples : int, default 10000000
-        Number of configurations.
+        Number of configurations, or of poses that are drawn.
+    by : {"configurations", "poses", "middles"}, default "configurations"
+        Samples: configurations; poses that are drawn evenly in the map; or those in the middles of
+        its cells. Poses take a hundred times as long, and an arm of up to six coordinates that is
+        solved in closed form or by elimination; they find what few configurations reach.
+    turns : int, default 1
+        Of middles, number of turns of the tool about its z axis in each, as of `PoseGrid`.
     side : int, default 0
         Tiles along each of the twelve faces of the sphere, for 12 side² directions of the tool's z
         axis (HEALPix); 0 where directions are not told apart.
     measure : Measure or str, default "reach"
-        What is kept of each cell besides counts, as `Sweep` has it.
+        What is kept of each cell besides counts, as `Sweep` has it; of a pose the measure is that
+        of its best solution, or "solutions", their number.
     keep : {"best", "worst", "mean"}, default "best"
         Whether the best or the worst measure of a cell is kept, with its configuration, or the mean.
     mask : SelfCollision, optional
-        Configurations that it leaves out count nowhere.
+        Configurations, or solutions, that it leaves out count nowhere.
     seed : int, default 0
-        Seed of the configurations.
+        Seed of the samples.
     chunk : int, optional
         Number of samples that are run, and kept, at a time, as in `run`.
     workers : int, optional
@@ -80,8 +91,8 @@ def reach(  # noqa: PLR0913 - options by keyword
     Returns
     -------
     found : SweepMap
-        The map; the same to the last bit for any chunk, number of workers and executor, and on any
-        processor.
+        The map; the same to the last bit for any chunk, number of workers and executor, and of
+        configurations on any processor.
 
     Raises
     ------
@@ -93,6 +104,7 @@ def reach(  # noqa: PLR0913 - options by keyword
     See Also
     --------
     run : Sweeps over other samples and cells.
+    PoseSamples, PoseGrid : Poses in a box, and in the middles of cells.
 
     Notes
     -----
@@ -111,10 +123,20 @@ def reach(  # noqa: PLR0913 - options by keyword
     """
     arm = chain_of(chain)
     size = positive(resolution, "resolution")
+    choice(by, get_args(Drawn), "by")
+    if turns != 1 and by != "middles":
+        raise InputError(f"turns: expected 1 unless by is 'middles', got {safe_repr(turns)}")
     drawn = Random.of(arm, samples, seed)
-    cells = _around(arm, drawn, size, side)
+    lower, upper = reached_box(arm, drawn if by == "configurations" else Random.of(arm, _TRIED))
+    more = _MORE * size
+    cells = Cells.box(lower - more, upper + more, size, side)
+    tried = drawn
+    if by == "poses":
+        tried = PoseSamples.random(cells.corner, cells.upper, samples, seed)
+    elif by == "middles":
+        tried = PoseGrid.of(cells, turns)
     return run(
-        Sweep(arm, drawn, cells, measure, keep, mask),
+        Sweep(arm, tried, cells, measure, keep, mask),
         chunk=chunk,
         workers=workers,
         executor=executor,
@@ -122,16 +144,3 @@ def reach(  # noqa: PLR0913 - options by keyword
         resume=resume,
         progress=progress,
     )
-
-
-def _around(chain: Chain, samples: Random, size: float, side: int) -> Cells:
-    """Cells around the first of the samples."""
-    count = min(_TRIED, samples.count)
-    q = samples.configurations(np.arange(count))
-    T = chain.compile().fk(q)
-    # rounded, so that the last bit of a pose, which differs by processor, moves no corner
-    p = translation_part(T).round(9)
-    more = _MORE * size
-    lower = p.min(axis=0) - more
-    upper = p.max(axis=0) + more
-    return Cells.box(lower, upper, size, side)

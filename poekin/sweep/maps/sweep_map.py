@@ -14,13 +14,17 @@ from ...errors import FileError, InputError, UnknownName
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...results import Result
-from ..cells import Cells
+from ..cells import Cells, cells_from
 from ..execution.totals import NO_SAMPLE, Totals
 from ..measures.names import LABELS
-from ..samples import Samples, samples_from
+from ..pose_samples import NumberedPoses, read_samples
+from ..samples import Samples
+from ..solutions import best_solutions
 from ..sweep import Sweep
 from . import labelled, map_files
 from .kept_map import ARRAYS, KeptMap
+
+_AT_ONCE = 2**16  # poses that are in memory at once
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,10 +37,10 @@ class SweepMap(Result):
         The sweep as plain data.
     cells : Cells
         Where the cells are.
-    samples : Random, Sobol or Grid
-        The configurations.
+    samples : Random, Sobol, Grid, PoseSamples or PoseGrid
+        The configurations, or the poses.
     counts : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray of int
-        Number of samples in each cell.
+        Number of samples in each cell; of poses those that are reached.
     outside : int
         Number of samples in none of them.
     best : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray or None
@@ -44,21 +48,26 @@ class SweepMap(Result):
         SI units (rad, m), NaN in an empty one; None of a sweep that only counts.
     attained : (nx, ny, nz) or (nx, ny, nz, tiles) ndarray of int or None
         Number of the first sample with that measure, -1 in an empty cell; None of means too.
-    chain : Chain or None
-        The arm; None of a map that was read from a file.
+    sweep : Sweep or None
+        The sweep itself; None of a map that was read from a file.
     """
 
-    left_out: ClassVar = ("cells", "samples", "counts", "best", "attained", "chain")
+    left_out: ClassVar = ("cells", "samples", "counts", "best", "attained", "sweep")
     derived: ClassVar = ("reached_volume", "capability_range", "new_cell_chance")
 
     about: dict[str, Any]
     cells: Cells
-    samples: Samples
+    samples: Samples | NumberedPoses
     counts: np.ndarray
     outside: int
     best: Array | None = None
     attained: np.ndarray | None = None
-    chain: Chain | None = None
+    sweep: Sweep | None = None
+
+    @property
+    def chain(self) -> Chain | None:
+        """The arm; None of a map that was read from a file."""
+        return None if self.sweep is None else self.sweep.chain
 
     @property
     def reached(self) -> np.ndarray:
@@ -78,6 +87,25 @@ class SweepMap(Result):
         return np.count_nonzero(self.counts, axis=-1) / self.cells.tiles
 
     @property
+    def reached_share(self) -> Array:
+        """Share of the poses tried in each cell (nx, ny, nz) or (nx, ny, nz, tiles) that are reached.
+
+        No unit; NaN where none was tried.
+
+        Raises: InputError, of a sweep of configurations.
+        """
+        samples = self.samples
+        if not isinstance(samples, NumberedPoses):
+            raise InputError("reached_share: expected a map of poses, this is of configurations")
+        tried = np.zeros(self.cells.count, np.int64)
+        for first in range(0, samples.count, _AT_ONCE):
+            numbers = np.arange(first, min(first + _AT_ONCE, samples.count))
+            found = self.cells.find(samples.poses(numbers))
+            tried += np.bincount(found[found >= 0], minlength=len(tried))
+        tried = tried.reshape(self.counts.shape)
+        return np.where(tried > 0, self.counts / np.maximum(tried, 1), np.nan)
+
+    @property
     def reached_volume(self) -> float:
         """Volume of the cubes that were reached, m³."""
         return float(np.count_nonzero(self.reached)) * self.cells.resolution**3
@@ -92,7 +120,7 @@ class SweepMap(Result):
 
     @property
     def new_cell_chance(self) -> float:
-        """Chance that a further configuration would fall into an empty cell, no unit.
+        """Chance that a further random sample would fall into an empty cell, no unit.
 
         It is the share of the samples that are alone in their cell (Good 1953).
         """
@@ -100,7 +128,7 @@ class SweepMap(Result):
 
     @property
     def masked(self) -> int:
-        """Number of samples that the sweep's mask left out."""
+        """Number of samples that the sweep's mask left out; of poses those that are not reached."""
         return self.samples.count - int(self.counts.sum()) - self.outside
 
     def summary(self) -> str:
@@ -114,11 +142,9 @@ class SweepMap(Result):
         cells = self.cells
         whole = float(np.prod(cells.shape)) * cells.resolution**3
         lines = [
-            f"{self.samples.count} configurations, {self.outside} of them outside the map",
+            self._counted(),
             f"{self.reached_volume:.4g} m³ of {whole:.4g} m³ reached, in cubes of {1e3 * cells.resolution:.4g} mm",
         ]
-        if "mask" in self.about:
-            lines[0] += f", {self.masked} left out as the arm touches itself"
         if self.capability_range is not None:
             mean, most = self.capability_range
             lines.append(
@@ -131,10 +157,23 @@ class SweepMap(Result):
             most = np.nanmax(self.best)
             ends = label.between(float(least), float(most))
             lines.append(f"{self.about['keep']} {label.words} of a cell: {ends}")
-        lines.append(
-            f"a further configuration would fall into an empty cell with a chance of {100 * self.new_cell_chance:.2g} %"
-        )
+        if not isinstance(self.samples, NumberedPoses):
+            chance = 100 * self.new_cell_chance
+            lines.append(
+                f"a further configuration would fall into an empty cell with a chance of {chance:.2g} %"
+            )
         return "\n".join(lines)
+
+    def _counted(self) -> str:
+        count = self.samples.count
+        if isinstance(self.samples, NumberedPoses):
+            reached = count - self.masked
+            share = 100 * reached / count
+            return f"{count} poses, {reached} of them reached ({share:.3g} %), {self.outside} of these outside the map"
+        words = f"{count} configurations, {self.outside} of them outside the map"
+        if "mask" in self.about:
+            words += f", {self.masked} left out as the arm touches itself"
+        return words
 
     def query(self, T: ArrayLike) -> np.ndarray:
         """Number of samples in the cells of poses.
@@ -197,7 +236,7 @@ class SweepMap(Result):
         return np.take(self.counts, number, axis=along)
 
     def configurations(self, cells: Any = ...) -> Array:
-        """The configurations with the best, or the worst, measure.
+        """The configurations with the best, or the worst, measure; of poses their best solutions.
 
         Parameters
         ----------
@@ -212,17 +251,54 @@ class SweepMap(Result):
         Raises
         ------
         InputError
-            If the sweep has no measure, or means.
+            If the sweep has no measure, or means, or is one of poses read from a file.
         """
-        if self.attained is None:
-            raise InputError(
-                "configurations: the sweep only counts (measure='reach'), or keeps means"
-            )
-        numbers = np.asarray(self.attained[cells])
+        numbers = self._attained(cells, "configurations")
         known = numbers != NO_SAMPLE
-        q = np.full((*numbers.shape, len(self.samples.lower)), np.nan)
-        q[known] = self.samples.configurations(numbers[known])
+        q = np.full((*numbers.shape, len(self.about["q_names"])), np.nan)
+        if not isinstance(self.samples, NumberedPoses):
+            q[known] = self.samples.configurations(numbers[known])
+            return q
+        sweep = self.sweep
+        if sweep is None:
+            raise InputError(
+                "configurations: a map of poses out of a file does not know its arm; ik_all of `poses` does"
+            )
+        T = self.samples.poses(numbers[known])
+        found = best_solutions(sweep.chain, T, sweep.measured, sweep.mask)
+        q[known] = found.configurations()
         return q
+
+    def poses(self, cells: Any = ...) -> Array:
+        """The poses with the best, or the worst, measure.
+
+        Parameters
+        ----------
+        cells : index, optional
+            Index of the arrays (counts.shape); all by default.
+
+        Returns
+        -------
+        T : (..., 4, 4) ndarray
+            Poses of the tip in the base frame, m; NaN for an empty cell.
+
+        Raises
+        ------
+        InputError
+            If the sweep has no measure, or means, or is one of configurations.
+        """
+        numbers = self._attained(cells, "poses")
+        if not isinstance(self.samples, NumberedPoses):
+            raise InputError("poses: expected a map of poses, this is of configurations")
+        known = numbers != NO_SAMPLE
+        T = np.full((*numbers.shape, 4, 4), np.nan)
+        T[known] = self.samples.poses(numbers[known])
+        return T
+
+    def _attained(self, cells: Any, what: str) -> np.ndarray:
+        if self.attained is None:
+            raise InputError(f"{what}: the sweep only counts (measure='reach'), or keeps means")
+        return np.asarray(self.attained[cells])
 
     def to_xarray(self) -> Any:
         """The map as a dataset of xarray.
@@ -286,7 +362,7 @@ def map_of(sweep: Sweep, totals: Totals) -> SweepMap:
         totals.outside,
         best,
         attained,
-        sweep.chain,
+        sweep,
     )
 
 
@@ -314,9 +390,8 @@ def load_map(path: str | os.PathLike[str]) -> SweepMap:
     """
     about, arrays, outside = map_files.read(path)
     try:
-        corner = tuple(about["corner"])
-        cells = Cells(corner, about["resolution"], tuple(about["shape"]), about["side"])
-        samples = samples_from(about["samples"])
+        cells = cells_from(about)
+        samples = read_samples(about["samples"])
         counts, best, attained = (arrays.get(name) for name in ARRAYS)
         if counts is None:
             raise KeyError("counts")

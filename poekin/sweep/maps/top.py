@@ -1,4 +1,4 @@
-"""top: the configurations with the best measures of all."""
+"""top: the configurations, or poses, with the best measures of all."""
 
 from __future__ import annotations
 
@@ -18,7 +18,9 @@ from ..execution.totals import NO_SAMPLE
 from ..masks.self_collision import SelfCollision
 from ..measures.measure import Measure
 from ..measures.names import LABELS, MeasureName
-from ..samples import Samples, samples_of
+from ..pose_samples import NumberedPoses, is_of_poses, samples_of
+from ..samples import Samples
+from ..solutions import best_solutions
 from ..sweep import Keep, Sweep
 
 _LONGEST = 2**20
@@ -37,13 +39,16 @@ class TopSamples(Result):
     numbers : (K,) ndarray of int
         Their numbers among the samples; of equal measures the smaller number comes first.
     q : (K, m) ndarray
-        The configurations, rad or m.
+        The configurations, rad or m; of poses the best solution of each.
+    T : (K, 4, 4) ndarray or None
+        The poses, m; None of a sweep of configurations.
     """
 
     about: dict[str, Any]
     values: Array
     numbers: np.ndarray
     q: Array
+    T: Array | None = None
 
     def summary(self) -> str:
         """First and last measure.
@@ -54,11 +59,12 @@ class TopSamples(Result):
             Line such as "10 best of 1000000 configurations: manipulability 0.12 to 0.11".
         """
         label = LABELS[self.about["measure"]]
+        what = "poses" if is_of_poses(self.about["samples"]) else "configurations"
         first = float(self.values[0])
         last = float(self.values[-1])
         ends = label.between(first, last)
         return (
-            f"{len(self.values)} {self.about['keep']} of {self.about['count']} configurations: "
+            f"{len(self.values)} {self.about['keep']} of {self.about['count']} {what}: "
             f"{label.words} {ends}"
         )
 
@@ -69,11 +75,11 @@ def top(
     count: int = 10,
     *,
     keep: Keep = "best",
-    samples: int | Samples = 10_000_000,
+    samples: int | Samples | NumberedPoses = 10_000_000,
     mask: SelfCollision | None = None,
     **options: Unpack[RunOptions],
 ) -> TopSamples:
-    """Finds the configurations with the best measures.
+    """Finds the configurations, or poses, with the best measures.
 
     Parameters
     ----------
@@ -86,7 +92,8 @@ def top(
     keep : {"best", "worst"}, default "best"
         Whether the best or the worst are found.
     samples : int or Samples, default 10000000
-        Number of random configurations, or `Random`, `Sobol` or `Grid` ones.
+        Number of random configurations, or `Random`, `Sobol` or `Grid` ones; or `PoseSamples`, or a
+        `PoseGrid`, whose measures are those of their best solutions.
     mask : SelfCollision, optional
         Configurations that it leaves out count nowhere.
     **options
@@ -101,7 +108,7 @@ def top(
     ------
     InputError
         If an option cannot be used, the measure is "reach", keep is "mean", or the mask leaves
-        no configuration.
+        no configuration, or no pose is reached.
     FileError
         If the store cannot be read or written.
 
@@ -130,6 +137,10 @@ def top(
     values = sweep.sign * totals.best[is_found]
     numbers = totals.attained[is_found]
     if not len(numbers):
-        raise InputError("top: no configuration has a measure, or all are left out")
+        raise InputError("top: no sample has a measure, or all are left out or not reached")
+    if isinstance(drawn, NumberedPoses):
+        T = drawn.poses(numbers)
+        q = best_solutions(arm, T, sweep.measured, mask).configurations()
+        return TopSamples(about, values, numbers, q, T)
     q = drawn.configurations(numbers)
     return TopSamples(about, values, numbers, q)

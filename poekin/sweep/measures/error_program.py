@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ...algebra import translation
 from ...engine.straight_line.program import Angles, Program, program
 from ...engine.straight_line.trace import Graph
@@ -50,7 +52,7 @@ def traced_products(chain: Chain) -> TracedProducts:
     R = rotation_part(chain.home).ravel()
     p = translation_part(chain.home)
     home = (*R.tolist(), *p.tolist())
-    P: list[Any] = [[0.0] * 12 for _ in range(n + 2)]
+    P: list[Any] = np.zeros((n + 2, 12)).tolist()
     products(exponentials, home, n, P)
     return TracedProducts(graph, angles, P)
 
@@ -66,7 +68,7 @@ def error_program(
     """
     graph, angles, P = traced_products(chain)
     n = len(chain.screws)
-    D: list[Any] = [[[0.0] * 6 for _ in range(n + 1)] for _ in range(6)]
+    D: list[Any] = np.zeros((6, n + 1, 6)).tolist()
     pose_changes(P, n, D)
     p = translation(P[n + 1])
     squared = squared_rotation if is_rotation else squared_displacement

@@ -10,6 +10,7 @@ from ...errors import InputError, ShapeError
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.sampling import sampling_range
+from ...solve.joint_units import periods
 from .measure import Measure
 
 
@@ -32,6 +33,10 @@ class LimitMargin(Measure):
 
     called = "limit_margin"
     kind = 5
+
+    def at_best_turns(self, chain: Chain, q: Array) -> Array:
+        """Configurations as near to the middles as whole turns bring them."""
+        return _nearest_turns(chain, q, self.numbers(chain)[: chain.dof])
 
     def check(self, chain: Chain) -> None:
         """Refuses an arm without limits. Raises: InputError."""
@@ -78,6 +83,10 @@ class JointTravel(Measure):
         """Its name, another one where it is a time."""
         return "travel" if self.speeds is None else "travel_time"
 
+    def at_best_turns(self, chain: Chain, q: Array) -> Array:
+        """Configurations as near to the reference as whole turns bring them."""
+        return _nearest_turns(chain, q, self.numbers(chain)[: chain.dof])
+
     def check(self, chain: Chain) -> None:
         """Refuses numbers of another arm. Raises: InputError, ShapeError."""
         for what, values in (("reference", self.reference), ("speeds", self.speeds)):
@@ -102,6 +111,20 @@ class JointTravel(Measure):
         """Reference and speeds."""
         given = {"reference": self.reference, "speeds": self.speeds}
         return {what: None if x is None else list(map(float, x)) for what, x in given.items()}
+
+
+def _nearest_turns(chain: Chain, q: Array, reference: Array) -> Array:
+    """Configurations (S, m) within the limits, whole turns away where that is nearer to a reference."""
+    if np.isfinite(chain.joint_limits).any():
+        return q
+    turn = periods(chain)
+    length = np.where(turn > 0.0, turn, np.inf)
+    lower, upper = chain.limits.T
+    # 0 is allowed though rounding may have brought q beyond a limit
+    least = np.minimum(np.ceil((lower - q) / length), 0.0)
+    most = np.maximum(np.floor((upper - q) / length), 0.0)
+    number = np.clip(np.round((reference - q) / length), least, most)
+    return q + number * turn
 
 
 def _has_limits(chain: Chain) -> np.ndarray:

@@ -48,6 +48,8 @@ class Measure:
     kind: ClassVar[int]
     """Kind, as the kernel calls it."""
     called: ClassVar[str] = ""
+    of_poses: ClassVar[bool] = False
+    """Whether it is of samples that are poses alone."""
 
     @property
     def name(self) -> str:
@@ -68,6 +70,10 @@ class Measure:
     def numbers(self, chain: Chain) -> Array:
         """Numbers of the kernel."""
         return np.empty(0)
+
+    def at_best_turns(self, chain: Chain, q: Array) -> Array:
+        """Configurations (S, m), whole turns away where the measure is better there."""
+        return q
 
     def describe(self) -> dict[str, object]:
         """Plain data from which the same measure is known again."""

@@ -8,6 +8,7 @@ from ...checks import choice
 from .dexterity import InverseCondition, PoseManipulability, SmallestSingularValue
 from .joints import JointTravel, LimitMargin
 from .measure import Measure, MeasureLabel, Reach
+from .solutions import SolutionCount
 
 MeasureName = Literal[
     "reach",
@@ -16,6 +17,7 @@ MeasureName = Literal[
     "smallest_singular_value",
     "limit_margin",
     "travel",
+    "solutions",
 ]
 _MADE: dict[str, Measure] = {
     made.name: made
@@ -26,6 +28,7 @@ _MADE: dict[str, Measure] = {
         SmallestSingularValue(),
         LimitMargin(),
         JointTravel(),
+        SolutionCount(),
     )
 }
 LABELS = {
@@ -35,6 +38,7 @@ LABELS = {
     "limit_margin": MeasureLabel("distance to the joint limits", "% of half the range", 100.0),
     "travel": MeasureLabel("joint travel", "rad or m", sign=-1),
     "travel_time": MeasureLabel("joint travel", "s", sign=-1),
+    "solutions": MeasureLabel("number of IK solutions"),
     "position_error": MeasureLabel("standard deviation of the position", "mm", 1e3, -1),
     "orientation_error": MeasureLabel("standard deviation of the orientation", "mrad", 1e3, -1),
     "position_bound": MeasureLabel("worst-case error of the position", "mm", 1e3, -1),

@@ -55,7 +55,7 @@ def _clustered(
     cell: float,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Vertices and faces, with the mean of all vertices of a cell in its place."""
-    keys = _number(np.floor((vertices - low) / cell).astype(np.int64))
+    keys = _number(((vertices - low) / cell).astype(np.int64))  # none is negative
     _, place, count = np.unique(keys, return_inverse=True, return_counts=True)
     means = np.stack(
         [np.bincount(place, weights=column) / count for column in vertices.T.astype(float)],

@@ -143,7 +143,7 @@ def arm_size(arm: ArmGeometry, q: Array, bodies: Iterable[Triangles] = ()) -> fl
     T = arm.poses(q)
     points = [arm.points(q)]
     for body in bodies:
-        bounds = np.stack([body.vertices.min(axis=0), body.vertices.max(axis=0)], axis=-1)
+        bounds = np.stack([body.vertices.min(axis=0), body.vertices.max(axis=0)], axis=1)
         corners = np.stack(np.meshgrid(*bounds), axis=-1).reshape(-1, 3)
         points.append(transformed(corners, T[body.attachment.link]))
     diagonal = norm(np.ptp(np.concatenate(points), axis=0))

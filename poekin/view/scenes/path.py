@@ -88,7 +88,7 @@ def _way(path: PathResult, points: Array, stage: Stage) -> Iterator[Node]:
             yield Polyline(attachment, stretch, 2.5 * width)
         else:
             ball = sphere(2.5 * width, 16)
-            yield Triangles(attachment, ball.vertices + stretch[0], ball.faces)
+            yield Triangles(attachment, ball.vertices + stretch, ball.faces)
         if event.kind == "switch":
             words = f"branch changes before pose {event.first}"
             yield Label(attachment, stretch[0] + 0.03 * stage.size, words)

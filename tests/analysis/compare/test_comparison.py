@@ -13,7 +13,7 @@ from poekin.analysis.compare.comparison import JointComparison, PoseDifferences
 
 JOINT = JointComparison(
     3, "elbow", "e", "revolute", "revolute", math.radians(0.5), 1e-3, 2e-3, math.radians(-4),
-    False, (0.0, 0.1), True, False,
+    False, (0.0, 0.1), True, False, "", "", False, 0.0, (0.0, 0.1),
 )  # fmt: skip
 SLIDE = replace(JOINT, kind_a="prismatic", kind_b="prismatic", normal=None, shift=None)
 

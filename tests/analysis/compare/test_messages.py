@@ -62,8 +62,9 @@ def test_another_reading_says_the_size_of_its_zero_offset(kind, words):
 
 
 TURNS = JointComparison(
-    2, "arm", "b2", "revolute", "revolute", 0.0, 0.0, 0.0, 0.0, False, (0.0, 0.0), False, False
-)
+    2, "arm", "b2", "revolute", "revolute", 0.0, 0.0, 0.0, 0.0, False, (0.0, 0.0), False, False,
+    "", "", False, 0.0, (0.0, 0.0),
+)  # fmt: skip
 
 TOL = Tolerances(1e-5, np.radians(1e-3))
 
@@ -311,6 +312,32 @@ def test_behind_another_link_only_what_differs_by_itself_is_said():
     reversed_too = (*joints[:4], replace(joints[4], reversed=True))
     _, fifth = messages.joint_findings(reversed_too, TOL, Said(), 2)
     assert fifth == "joint 5 ('a5') has the sign of q flipped"
+
+
+@pytest.mark.parametrize("kind, moved, said", [
+    ("prismatic", False, True), ("prismatic", True, False), ("revolute", False, False),
+    ("helical", False, False),
+])  # fmt: skip
+@pytest.mark.parametrize("k", [1, 2])
+def test_a_link_in_front_of_a_slide_that_did_not_move_may_be_the_one_behind_it(
+    k, kind, moved, said
+):
+    rows = [screw_of("revolute")] * 4
+    rows[k] = screw_of(kind)
+    chain = Chain.from_space(rows, np.eye(4), joint_names=["a", "b", "c", "d"])
+    at, none = (np.arange(4) == k) & moved, np.zeros(4, bool)
+    linked = Hypothesis(
+        np.eye(4), np.eye(4), np.zeros(4), np.ones(4), at, none, chain.screws, np.zeros(4), 0, k
+    )
+    sentence = f"the link behind joint {k + 1} ('{'abcd'[k]}'), which slides, explains it as well"
+    assert messages.equivalents(chain, chain, linked, [], TOL) == [sentence] * said
+    assert messages.equivalents(chain, chain, replace(linked, link=0), [], TOL) == []
+
+
+def screw_of(kind):
+    if kind == "prismatic":
+        return pk.screw.prismatic([0, 0, 1])
+    return pk.screw.helical([0, 0, 1], [1, 0, 0], 0.1 * (kind == "helical"))
 
 
 def test_what_was_aligned_and_the_mistakes_are_said():

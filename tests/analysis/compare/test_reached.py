@@ -12,7 +12,7 @@ import pytest
 from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.alignment.lines import sides
-from poekin.analysis.compare.reached import _bounds, poses_agree
+from poekin.analysis.compare.reached import _bounds, near, poses_agree
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
@@ -107,3 +107,24 @@ def test_poses_are_looked_at_within_the_limits_of_each_arm_in_its_own_zero_and_d
     assert poses_agree(sides(a, b, Tolerances(TOL_M, TOL_RAD)), a, b, reading) == (
         free == "neither"
     )
+
+
+@pytest.mark.parametrize("reaches, half_turns, one_arm", [
+    (0.029, 0.0, True), (0.0, 0.029, True), (0.014, 0.014, True), (0.016, 0.016, False), (0.031, 0.0, False),
+    (0.0, 0.031, False), (1.0, 0.0, False), (0.0, 0.999, False),
+])  # fmt: skip
+@pytest.mark.parametrize("which", ["a", "b"])
+def test_arms_whose_tools_are_three_hundredths_of_reach_and_half_turn_apart_are_two(
+    reaches, half_turns, one_arm, which
+):
+    chain = planar(screw.revolute(Z, [-1, 0, 0]))
+    short = chain.replace(home=se3.exp([0, 0, 0, 3, 0, 0]))
+    a, b = (chain, short) if which == "a" else (short, chain)
+    # both tools where that of a is, but for what they are apart: of the larger reach
+    apart = se3.exp([0, 0, 0, *(reaches * chain.reach * np.array([0, 0.6, 0.8]))])
+    tool = se3.inverse(b.home) @ a.home @ apart @ se3.exp([np.pi * half_turns, 0, 0, 0, 0, 0])
+    nothing = np.zeros(3, bool)
+    reading = Hypothesis(
+        np.eye(4), tool, np.zeros(3), np.ones(3), nothing, nothing, a.screws, np.zeros(3), 1
+    )
+    assert near(a, b, reading) is one_arm

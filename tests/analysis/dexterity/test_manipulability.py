@@ -11,7 +11,11 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.analysis.dexterity.jacobian_part import ROWS, generic_rank
-from poekin.analysis.dexterity.manipulability import manipulability, manipulability_gradient
+from poekin.analysis.dexterity.manipulability import (
+    Measures,
+    manipulability,
+    manipulability_gradient,
+)
 from poekin.errors import InputError
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.oracles import differences
@@ -162,3 +166,16 @@ def test_without_a_length_lengths_are_in_metres():
     )
     other = manipulability(chain, q, length=2.0)
     assert other.pose.yoshikawa != manipulability(chain, q).pose.yoshikawa
+
+
+def test_measures_of_a_batch_are_summed_up_by_the_worst_of_each_and_no_zero_has_a_sign():
+    three = Measures(
+        yoshikawa=np.array([0.25, 0.123456, 0.5]),
+        condition=np.array([3.0, 4.5, 2.0]),
+        smallest=np.array([0.2, 0.3, -0.0]),
+    )
+    assert three.summary() == "yoshikawa 0.1235, condition 4.5, smallest 0"
+    one = Measures(*np.array([0.25, 3.0, 0.2]))
+    assert str(one) == "yoshikawa 0.25, condition 3, smallest 0.2"
+    none = Measures(*np.empty((3, 0)))
+    assert none.summary() == "no configuration"

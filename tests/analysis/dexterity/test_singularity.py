@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.analysis.dexterity.messages import motion_words
-from poekin.analysis.dexterity.singularity import singularity
+from poekin.analysis.dexterity.singularity import _distance, singularity
 from poekin.errors import InputError, ShapeError
 from tests.model.laws.chain_cases import chain_cases
 
@@ -301,3 +301,19 @@ def test_tolerance_and_length_are_within_what_they_mean(options, words):
     assert str(caught.value) == words
     for value in (1e-300, float(np.float32(0.5)), 0.999):
         assert singularity(elbow_arm(), AWAY, tolerance=value).tolerance == value
+
+
+@pytest.mark.parametrize(
+    ("smallest", "steep", "distance"),
+    [
+        (0.0, 4.0, 0.0),
+        (1e-15, 4.0, 0.0),
+        (1e-15, 0.0, 0.0),
+        (3e-15, 4.0, 7.5e-16),
+        (0.5, 0.0, math.inf),
+    ],
+)
+def test_the_distance_is_0_where_the_singular_value_is_rounding_and_else_by_how_steep_it_is(
+    smallest, steep, distance
+):
+    assert _distance(smallest, 1.0, steep) == pytest.approx(distance, rel=1e-12, abs=0)

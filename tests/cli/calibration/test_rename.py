@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.cli.calibration import measured
+from poekin.cli.calibration.options.columns import renamed_columns
 
 
 @pytest.fixture
@@ -65,5 +65,5 @@ def test_a_name_alone_renames_nothing(word, refused, crane, tracker):
 
 
 def test_the_first_equals_sign_parts_the_names():
-    assert measured.names(["a=b=c", "d=e [mm]"]) == {"a": "b=c", "d": "e [mm]"}
-    assert measured.names(None) == {}
+    assert renamed_columns(["a=b=c", "d=e [mm]"]) == {"a": "b=c", "d": "e [mm]"}
+    assert renamed_columns(None) == {}

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.cli.formats import frame_numbers
 
 ARM = pk.load("ur5e").chain(tip="tool0")
 BASE = pk.poses.from_numbers([100, 200, 50, 10, 20, 30], "kuka")
@@ -42,6 +44,18 @@ def test_base_and_tool_are_printed_as_the_controller_takes_them(urdf, poekin):
         np.testing.assert_allclose(T, document[key], rtol=0, atol=1e-12)
         numbers = pk.poses.from_numbers(document[f"{key}_numbers"], "kuka")
         np.testing.assert_allclose(numbers, document[key], rtol=0, atol=1e-14)
+
+
+def test_numbers_are_printed_to_twelve_decimals(monkeypatch):
+    row = [2 / 3, -1 / 7, 4e-13, 6e-13, 0.25, 1000 / 3]
+    monkeypatch.setattr(frame_numbers, "_frames", lambda result, chosen: [("base", "", row)])
+    chosen = frame_numbers.frame_layout("kuka", None, None, None)
+    assert chosen is not None
+    nothing: Any = None
+    assert frame_numbers.frame_lines(nothing, chosen) == [
+        "base (kuka: mm, deg): {X 0.666666666667, Y -0.142857142857, Z 0, A 0.000000000001, "
+        "B 0.25, C 333.333333333333}"
+    ]
 
 
 WRONG = {

@@ -208,7 +208,7 @@ def test_of_many_configurations_the_first_beyond_the_limits_is_named(crane, poek
     (tmp_path / "q.csv").write_text("0.1,0.5\n0.2,250\n0.2,500\n")
     _, _, err = poekin("fk", crane, "--tip", "hook", "--input", tmp_path / "q.csv")
     assert err == (
-        "poekin: warning: 2 of 3 configurations are beyond the limits; in the first, row 1, slide ="
+        "poekin: warning: 2 of 3 configurations are beyond limits; in the first, row 1, slide ="
         " 250 m is outside its limits, 0 to 1; are these mm? --mm says so\n"
     )
     chain = pk.load(crane).chain(tip="hook")

@@ -55,9 +55,31 @@ def test_a_base_may_be_any_link(crane, as_json):
 
 @pytest.mark.parametrize("frame", ["space", "body", "hybrid", "1"])
 def test_each_frame_of_the_jacobian(crane, as_json, arm, frame):
-    result = as_json("jacobian", crane, "--tip", "hook", "--frame", frame, 0.3, -0.2)
+    result = as_json("jacobian", crane, "--tip", "hook", "--frame", frame, 0.3, 0.2)
     which = int(frame) if frame.isdigit() else frame
-    np.testing.assert_array_equal(result["J"], arm.jacobian([0.3, -0.2], which))
+    np.testing.assert_array_equal(result["J"], arm.jacobian([0.3, 0.2], which))
+
+
+def test_jacobian_takes_degrees_and_mm_and_tells_of_limits(crane, poekin, as_json, arm):
+    words = ("jacobian", crane, "--tip", "hook", "--frame", "body")
+    J = as_json(*words, "--deg", "--mm", 30, 200)["J"]
+    np.testing.assert_array_equal(J, arm.jacobian([np.radians(30), 0.2], "body"))
+    assert "slide = 200 m is outside its limits, 0 to 1; are these mm?" in poekin(*words, 0, 200)[2]
+    assert poekin(*words, 0, 1.5)[2].endswith("slide = 1.5 m is outside its limits, 0 to 1\n")
+
+
+def test_coordinates_of_one_word_have_commas_between(crane, as_json, arm, refused):
+    T = as_json("fk", crane, "--tip", "hook", "0.3, 0.2")["T"]
+    np.testing.assert_array_equal(T, arm.fk([0.3, 0.2]))
+    assert "coordinate 1: a number expected, got '0,3'" in refused(
+        *("fk", crane, "--tip", "hook", "0,3", "0,2")
+    )
+
+
+def test_an_empty_file_is_refused_and_not_an_empty_batch(crane, refused, tmp_path):
+    (tmp_path / "q.csv").write_text("\n")
+    words = ("fk", crane, "--tip", "hook", "--input", tmp_path / "q.csv")
+    assert "q.csv': rows of numbers expected, the file is empty" in refused(*words)
 
 
 def test_a_pose_is_printed_as_a_matrix(crane, poekin):
@@ -200,7 +222,7 @@ def test_an_empty_batch_is_a_batch(crane, poekin, tmp_path):
 
 @pytest.mark.parametrize("command", [["fk"], ["jacobian", "--frame", "body"]])
 def test_an_empty_batch_gives_a_header_and_no_line(crane, poekin, tmp_path, command):
-    (tmp_path / "q.csv").write_text("")
+    (tmp_path / "q.csv").write_text("turn,slide\n")
     np.save(tmp_path / "q.npy", np.zeros((0, 2)))
     for given in ("q.csv", "q.npy"):
         code, out, err = poekin(*command, crane, "--tip", "hook", "--input", tmp_path / given)

@@ -182,8 +182,9 @@ def test_of_very_many_reasons_the_first_are_told(poekin, tmp_path):
     assert err.splitlines()[20] == "poekin: and 10 more poses; --json tells of each"
 
 
-def test_an_empty_file_is_an_empty_batch(poekin, tmp_path):
-    (tmp_path / "T.csv").write_text("")
+def test_a_file_with_names_alone_is_an_empty_batch(poekin, tmp_path):
+    names = ",".join(f"T{i}{j}" for i in range(3) for j in range(4))
+    (tmp_path / "T.csv").write_text(f"{names}\n")
     code, out, err = poekin(*PANDA, "--input", tmp_path / "T.csv", "--format", 12)
     assert (code, err, out.count("\n")) == (0, "", 1)
 

@@ -8,7 +8,7 @@ import pytest
 import poekin as pk
 from poekin.cli.kinematics import arm, poses
 from poekin.errors import InputError
-from poekin.formats.poses.layout import NAMED
+from poekin.formats.poses.layout import NAMED, layout
 
 CHAIN = pk.load("stanford").chain()
 NAMES = ", ".join(CHAIN.q_names)
@@ -91,3 +91,18 @@ def test_a_misspelt_option_is_told_from_a_number_with_those_of_the_command(words
     said = refused(*words)
     assert said.startswith("poekin: error: there is no option '--")
     assert f"did you mean {close}" in said
+
+
+@pytest.mark.parametrize("more", [-1, 1])
+def test_other_than_one_number_for_each_coordinate_is_refused(more):
+    poses.check_count(np.zeros(CHAIN.dof), CHAIN)
+    with pytest.raises(InputError) as refused:
+        poses.check_count(np.zeros(CHAIN.dof + more), CHAIN, "--q0: ", "; or another")
+    assert str(refused.value) == (
+        f"--q0: 6 coordinates expected ({NAMES}), got {6 + more}; or another"
+    )
+
+
+def test_the_help_counts_the_numbers_of_a_matrix():
+    counts = " or ".join(str(len(layout(name).columns)) for name in ("12", "16"))
+    assert f"matrix ({counts}, row by row" in poses.FORMAT_HELP

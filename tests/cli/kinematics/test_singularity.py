@@ -42,11 +42,17 @@ def test_a_regular_arm_is_exit_code_0(poekin, words):
 
 def test_a_singular_arm_is_exit_code_1_with_what_is_lost(poekin):
     code, out, err = poekin(*panda("--at", *["0"] * 7))
-    assert (code, err) == (1, "")
+    assert (code, err.count("\n")) == (1, 1)
+    assert err.endswith("panda_joint4 = 0 rad is outside its limits, -3.0718 to -0.0698\n")
     assert (
         "the tool cannot move by turning about the base's x axis. The rates 'panda_joint1' +0.82"
         in out
     )
+
+
+def test_degrees_are_taken(poekin):
+    degrees = (repr(float(x)) for x in np.degrees(list(map(float, AWAY))))
+    assert poekin(*panda("--deg", *degrees))[1] == poekin(*panda(*AWAY))[1]
 
 
 def test_the_tolerance_and_the_part_are_taken(poekin):

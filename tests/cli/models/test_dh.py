@@ -107,6 +107,7 @@ def test_limits_base_and_tool_are_printed_where_there_are_such(poekin, tmp_path)
         shown = np.array([line.split() for line in lines[at + 1 : at + 5]], float)
         np.testing.assert_allclose(shown, T, atol=1e-9)
         assert (np.eye(4) != T).any()
+        assert np.abs(shown[shown != 0]).min() > 1e-3  # what is rounding is a zero
     assert "Base:" not in poekin("dh", "stanford")[1].splitlines()
 
 

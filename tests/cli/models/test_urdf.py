@@ -7,6 +7,7 @@ import os
 import sys
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -37,6 +38,30 @@ def test_one_chain_is_printed(crane, poekin):
         ("slide",),
     )
     np.testing.assert_allclose(back.chain().fk([0.4]), chain.fk([0.4]), rtol=0, atol=1e-15)
+
+
+def test_one_chain_keeps_what_its_joints_can_do(poekin, tmp_path):
+    joint: dict[str, Any] = {"effort": 150.0, "velocity": 3.0, "damping": 0.5, "friction": 0.25}
+    soft = pk.SafetyController(40.0, 100.0, -0.9, 0.9)
+    arm = pk.Joint(
+        *("turn", "revolute", "root", "arm"), limits=(-1, 1), safety_controller=soft, **joint
+    )
+    rod = pk.Joint(
+        *("rod", "prismatic", "arm", "hand"),
+        limits=(-1, 1),
+        mimic=pk.Mimic("turn", -1.0, 0.5),
+        safety_controller=soft,
+        **joint,
+    )
+    Path(tmp_path / "a.urdf").write_text(
+        to_urdf(pk.Robot("a", ["root", "arm", "hand"], [arm, rod]))
+    )
+    for ends in (("--tip", "hand"), ("--tip", "root", "--base", "hand"), ("--base", "arm")):
+        code, out, _ = poekin("urdf", tmp_path / "a.urdf", *ends)
+        assert (code, "not known" in out) == (0, False)
+        for found in urdf.read_text(out).joints[:-1]:  # the last one holds the tip
+            assert {key: getattr(found, key) for key in joint} == joint
+            assert found.safety_controller == (soft if found.name == "turn" else None)
 
 
 def test_a_warning_about_coordinates_is_on_stderr(crane, poekin):

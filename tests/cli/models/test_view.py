@@ -140,7 +140,7 @@ def test_what_is_wrong_is_one_message_and_nothing_is_written(words, said, refuse
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("", "--path: expected a configuration at least"),
+        ("", "rows of numbers expected, the file is empty"),
         ("turn,slide\n", "--path: expected a configuration at least"),
         ("time,turn,slide\n1,0,0\n0,0,0\n", "times: expected finite seconds"),
         ("turn,lower\n0,0\n", "neither a number nor a coordinate"),

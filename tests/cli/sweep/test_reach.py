@@ -66,11 +66,33 @@ def test_errors_are_those_of_the_tolerances_that_are_given(poekin):
 
 def test_every_measure_has_its_name(poekin):
     for name in get_args(MeasureName):
-        words = ("--samples", "1e3", "--measure", name, "--keep", "mean", "--json")
+        words = ["--samples", "1e3", "--measure", name, "--keep", "mean", "--json"]
+        if name == "solutions":
+            words += ["--by", "poses"]
         code, out, _ = poekin("sweep", "reach", "ur5e", *words)
         assert code == 0
         about = json.loads(out)["about"]
         assert (about["measure"], about["keep"]) == (name, "mean")
+
+
+def test_poses_are_tried_where_they_are_asked_for(tmp_path, poekin):
+    place = tmp_path / "map.npz"
+    words = ("--by", "poses", "--measure", "solutions", "--side", "1", "--output", str(place))
+    code, out, _ = poekin("sweep", "reach", "ur5e", *FEW, *words)
+    own = pk.sweep.reach(
+        pk.load("ur5e").chain(tip="tool0"),
+        samples=20_000,
+        by="poses",
+        resolution=0.2,
+        side=1,
+        measure="solutions",
+    )
+    assert (code, out) == (0, f"{own.summary()}\n\nthe map: '{place}'\n")
+    assert load_map(place).to_dict() == own.to_dict()
+    assert poekin("sweep", "show", str(place))[1].startswith("tool0 in base\n20000 poses, ")
+    words = ("--by", "middles", "--turns", "2", "--resolution", "0.4", "--tip", "tool0", "--json")
+    code, out, _ = poekin("sweep", "reach", "ur5e", *words)
+    assert (code, json.loads(out)["about"]["samples"]["poses"]["turns"]) == (0, 2)
 
 
 def test_a_store_is_gone_on_with_where_it_is_asked(tmp_path, poekin, refused):
@@ -88,15 +110,17 @@ def test_a_store_is_gone_on_with_where_it_is_asked(tmp_path, poekin, refused):
     [
         (
             ("--samples", "some"),
-            "--samples: expected a whole number, as 10000000 or 1e8, got 'some'",
+            "--samples: expected a whole number from 1 on, as 10000000 or 1e8, got 'some'",
         ),
         (("--samples", "1.5"), "--samples: expected a whole number"),
-        (("--samples", "0"), "count: expected a whole number from 1 on"),
+        (("--samples", "0"), "--samples: expected a whole number from 1 on"),
         (("--output", "map.csv"), "--output: expected a .npz file or a .zarr directory"),
         (("--measure", "position_error"), "--sigma-angle, --sigma-length: expected, one or both"),
         (("--sigma-angle", "1e-3"), "--sigma-angle, --sigma-length: expected, one or both"),
         (("--sigma-length", "1e-3", "--measure", "travel"), "and with no other"),
         (("--resume",), "--resume: expected with --store"),
+        (("--turns", "2"), "--turns: expected 1 unless by is 'middles', got 2"),
+        (("--measure", "solutions"), "expected samples of poses, PoseSamples or PoseGrid"),
         (("--resolution", "0"), "resolution: expected a positive number"),
         (("--resolution", "1e-9"), "at most 2^40 cells"),
         (("--tip", "nobody"), "nobody"),

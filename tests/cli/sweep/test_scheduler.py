@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -32,3 +34,13 @@ def test_one_that_cannot_be_reached_is_said_to_give_no_answer(refused):
 def test_without_the_extra_its_name_is_said(refused, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     assert "poekin[sweep]" in refused(*WORDS, "--scheduler", "tcp://localhost:8786")
+
+
+@pytest.mark.parametrize("kind", [OSError, ValueError])
+def test_why_there_is_no_answer_is_said_in_its_first_line(refused, monkeypatch, kind):
+    def client(address: str, **_: Any) -> None:
+        raise kind(f"no route to {address}\nin three attempts")
+
+    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=client))
+    said = " ".join(refused(*WORDS, "--scheduler", "tcp://x:1").split())
+    assert said.endswith("--scheduler: 'tcp://x:1' gives no answer: no route to tcp://x:1")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.sweep import Random
+from poekin.sweep import PoseSamples, Random
 from tests.sweep.masks.arm_of_all_shapes import robot_in
 
 FEW = ("--samples", "2000", "--tip", "tool0", "--seed", "3")
@@ -46,6 +46,18 @@ def test_bins_are_counted_between_the_ends(poekin):
     assert json.loads(out) == own.to_dict()
 
 
+def test_poses_are_drawn_where_they_are_asked_for(poekin):
+    poses = PoseSamples.of(ARM, 2000, 3)
+    words = ("--by", "poses", "--measure", "manipulability")
+    code, out, _ = poekin("sweep", "top", "ur5e", *FEW, *words, "--json")
+    own = pk.sweep.top(ARM, "manipulability", samples=poses)
+    assert (code, json.loads(out)) == (0, own.to_dict())
+    code, out, _ = poekin("sweep", "histogram", "ur5e", *FEW, *words)
+    own = pk.sweep.histogram(ARM, "manipulability", bins=20, samples=poses)
+    assert (code, out.startswith(f"{own.summary()}\n\n")) == (0, True)
+    assert out.split("─")[0].split()[-3:] == ["from", "to", "poses"]
+
+
 def test_both_leave_out_configurations_in_which_the_arm_touches_itself(tmp_path, poekin):
     robot = robot_in(tmp_path)
     arm = robot.chain(tip="hand")
@@ -66,7 +78,10 @@ def test_both_leave_out_configurations_in_which_the_arm_touches_itself(tmp_path,
     [
         (("top", "--measure", "reach"), "--measure: expected a measure to keep, got 'reach'"),
         (("top", "--keep", "mean"), "--keep: expected 'best' or 'worst', got 'mean'"),
-        (("top", "--samples", "1.5"), "--samples: expected a whole number, as 10000000 or 1e8"),
+        (
+            ("top", "--samples", "1.5"),
+            "--samples: expected a whole number from 1 on, as 10000000 or 1e8",
+        ),
         (("histogram", "--ends", "1", "0"), "--ends: "),
         (("histogram", "--sigma-angle", "1"), "--sigma-angle, --sigma-length: expected"),
     ],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 
 import numpy as np
@@ -26,8 +27,8 @@ def test_every_row_is_handed_out_once_with_its_partner(size):
 
 def test_parts_are_of_so_many_rows_where_nothing_is_said():
     sizes = []
-    threads.share_out(lambda a: sizes.append(len(a)), np.zeros(threads.ROWS_AT_ONCE + 1))
-    assert sorted(sizes) == [1, threads.ROWS_AT_ONCE]
+    threads.share_out(lambda a: sizes.append(len(a)), np.zeros(8193))
+    assert sorted(sizes) == [1, 8192]
 
 
 def test_what_a_part_raises_is_raised():
@@ -53,3 +54,12 @@ def test_an_error_in_one_part_takes_those_that_wait_off_the_list():
     release.set()
     threads.share_out(lambda part: None, np.arange(2), rows=1)  # behind all that waits
     assert len(begun) < 250
+
+
+def test_there_are_as_many_processors_as_this_process_may_use(monkeypatch):
+    monkeypatch.setattr(os, "sched_getaffinity", {0: {3, 5, 9}}.get, raising=False)
+    assert threads.processors() == 3
+    monkeypatch.delattr(os, "sched_getaffinity")
+    for known, number in ((6, 6), (1, 1), (None, 1)):
+        monkeypatch.setattr(os, "cpu_count", lambda known=known: known)
+        assert threads.processors() == number

@@ -232,6 +232,22 @@ def test_three_steps_in_a_row_that_leave_nine_tenths_end_a_try(ratios, taken, mo
     assert (state, count) == (codes.STALLED, taken)
 
 
+@pytest.mark.parametrize("off", [math.nan, math.inf])
+def test_a_try_with_an_error_that_is_not_finite_ends_after_two_steps(off, monkeypatch):
+    def one(arm: Any, q: np.ndarray, T: np.ndarray, J: np.ndarray, scratch: np.ndarray) -> None:
+        T[:], J[:] = np.eye(4), 1.0
+        T[0, 3] = off
+
+    monkeypatch.setattr(ik_kernels, "run_one", one)
+    _, (state, *_, taken) = descended(Q, np.eye(4))
+    assert (state, taken) == (codes.STALLED, 2)
+
+
+def test_the_axis_of_a_task_is_three_numbers_of_the_options():
+    row = np.arange(float(codes.OPTIONS))
+    assert ik_kernels.axis_of(row).tolist() == row[codes.AXIS : codes.WEIGHTS].tolist()
+
+
 @pytest.mark.parametrize("place", range(16))
 def test_a_target_is_finite_or_not(place):
     for wrong in (math.nan, math.inf, -math.inf):
@@ -320,6 +336,11 @@ def test_of_tries_that_fail_the_nearest_is_kept(monkeypatch):
     q, info = solved(tries := Tries(*ends), monkeypatch, restarts=2)
     assert q.tolist() == (tries.begun[1] + 100).tolist()
     assert info == [0.1, 0.3, 7, 2, codes.OUT_OF_ITERATIONS]
+    ends = [(codes.STALLED, *errors, 1) for errors in ((0.5, 0.5), (0.1, 0.3), (0.3, 0.05))]
+    again = (codes.STALLED, 0.05, 0.3, 1)  # as near, and later
+    q, info = solved(tries := Tries(*ends, again), monkeypatch, restarts=3)
+    assert q.tolist() == (tries.begun[2] + 100).tolist()
+    assert info == [0.3, 0.05, 4, 3, codes.STALLED]
     for first in (math.nan, math.inf):
         ends = [(codes.STALLED, first, 0.5, 1), (codes.STALLED, 5.0, 0.3, 2)]
         q, info = solved(tries := Tries(*ends), monkeypatch, restarts=1)
@@ -329,14 +350,19 @@ def test_of_tries_that_fail_the_nearest_is_kept(monkeypatch):
         assert np.array_equal(q, Q + 100)
 
 
-def test_a_target_that_is_not_finite_is_not_tried(monkeypatch):
-    target = TARGET.copy()
-    target[1, 3] = math.inf
-    q, info = solved(tries := Tries(), monkeypatch, target=target)
-    assert tries.begun == []
-    assert np.isnan(q).all()
-    assert np.isnan(info[:2]).all()
-    assert info[2:] == [0, 0, codes.BAD_TARGET]
+def test_a_target_that_is_not_finite_is_not_tried_and_those_after_it_are(monkeypatch):
+    targets = np.stack([TARGET, TARGET])
+    targets[0, 1, 3] = math.inf
+    monkeypatch.setattr(ik_kernels, "descend", tries := Tries(GOOD))
+    q, info = np.zeros((2, 4)), np.full((2, codes.INFO), -1.0)
+    ik_kernels.solve_many.function(
+        ARM, targets, np.stack([Q, Q]), WIDE, RANGES, FREE, options(), np.zeros(2), 9, q, info
+    )
+    assert [begun.tolist() for begun in tries.begun] == [Q.tolist()]
+    assert np.isnan(q[0]).all()
+    assert np.isnan(info[0, :2]).all()
+    assert info[0, 2:].tolist() == [0, 0, codes.BAD_TARGET]
+    assert info[1].tolist() == [1e-12, 1e-12, 4, 0, codes.SOLVED]
 
 
 def test_each_target_has_its_own_start_and_random_numbers(monkeypatch):
@@ -398,8 +424,8 @@ def test_a_path_ends_at_the_first_pose_that_is_not_reached(monkeypatch):
 @pytest.mark.parametrize("k", range(4))
 def test_a_path_ends_where_a_coordinate_moves_too_far(k, monkeypatch):
     most = [500.0] * 4
-    places = [Q, Q - 3.0 * np.eye(4)[k], Q]
-    most[k] = 3.0 + 1e-9
+    places = [np.zeros(4), -3.0 * np.eye(4)[k], np.zeros(4)]
+    most[k] = 3.0
     assert followed(Tries(GOOD, GOOD, GOOD, places=places), monkeypatch, most)[0] == 3
     most[k] = 3.0 - 1e-9
     reached, q, info = followed(Tries(GOOD, GOOD, GOOD, places=places), monkeypatch, most)
@@ -424,6 +450,10 @@ def test_results_are_judged_by_the_chain_in_the_parts_of_the_task(task):
         assert rotation == pytest.approx(turns.get(task, whole), abs=1e-14)
         off = 0.0 if task == codes.ROTATION else np.linalg.norm(target[:3, 3] - T[:3, 3])
         assert position == pytest.approx(off, abs=1e-15)
+    short = Chain.from_space(ARM.screws[:3], ARM.home)
+    there = short.fk(Q[:3])[None]
+    ik_kernels.pose_errors.function(short.kernel_table, q[:1, :3], there, task, axis, errors)
+    assert errors[0] == pytest.approx([0.0, 0.0], abs=1e-14)
 
 
 def test_an_angle_goes_the_shorter_way_round():
@@ -431,6 +461,7 @@ def test_an_angle_goes_the_shorter_way_round():
     for d, period, expected in (
         (0.3, turn, 0.3), (-0.3, turn, -0.3), (3.5, turn, 3.5 - turn), (-3.5, turn, turn - 3.5),
         (turn + 0.1, turn, 0.1), (-3 * turn - 0.1, turn, -0.1), (3.5, 0.0, 3.5), (0.7, 0.5, 0.2), (100.0, 0.0, 100.0),
+        (0.5, 1.0, -0.5), (-0.5, 1.0, -0.5),
     ):  # fmt: skip
         assert ik_all_kernel.wrapped_difference(d, period) == pytest.approx(expected, abs=1e-12)
 
@@ -479,9 +510,9 @@ def test_columns_are_nearly_dependent_below_1e_5_of_each_other(m):
         for small, singular in ((1.1e-5, False), (0.9e-5, m > 1)):
             sizes = np.ones(m)
             sizes[k] = small
-            assert (
-                ik_all_kernel.is_singular(ones, np.ones(m), work._replace(J=U * sizes)) == singular
-            )
+            for unit in (1.0, 1e3, 1e-3):
+                scaled = work._replace(J=U * sizes * unit)
+                assert ik_all_kernel.is_singular(ones, np.ones(m), scaled) == singular
     if m > 1:
         J = U.copy()
         J[:, -1] = J[:, 0] + 1e-9 * J[:, -1]
@@ -513,6 +544,22 @@ def test_a_bound_of_the_condition_is_one_and_locked_columns_do_not_count(m):
     n = min(m, 6)
     expected = ((n - 1) ** (n - 1) / n**n) ** 0.5
     assert ik_all_kernel.condition_bound(free, work) == pytest.approx(expected)
+    free = np.ones(m)
+    free[-1] = 0.0
+    work = work._replace(J=np.eye(6, m) * 1e-6)  # a pivot of 1 is of what is locked
+    assert not ik_all_kernel.is_singular(ones, free, work)
+    free[:] = np.eye(m)[0]
+    assert not ik_all_kernel.is_singular(ones, free, work)
+    assert ik_all_kernel.condition_bound(free, work) == pytest.approx(1.0)
+    work = work._replace(J=np.eye(6, m))
+    ik_all_kernel.is_singular(ones, free, work)
+    assert ik_all_kernel.condition_bound(free, work) == pytest.approx(1.0)
+    for wrong in (-1e-17, math.nan):  # what rounding makes of a pivot
+        by_rounding = work._replace(H=np.diag([wrong, *[1.0] * (m - 1)]))
+        assert ik_all_kernel.condition_bound(np.ones(m), by_rounding) == 0.0
+    work = work._replace(J=np.zeros((6, m)))
+    ik_all_kernel.is_singular(ones, free, work)
+    assert ik_all_kernel.condition_bound(free, work) == 0.0
     J = rng.normal(size=(6, m))
     J[:, 1] = J[:, 0] = np.eye(6)[0]  # two joints about one axis: a pivot of exactly 0
     work = work._replace(J=J)
@@ -558,12 +605,29 @@ def test_solutions_were_found_often_enough():
         assert bool(ik_all_kernel.is_enough(hits, singular, count, each, pairs)) is enough
 
 
+def test_both_parts_of_an_error_are_accepted_up_to_the_limit():
+    for position, rotation, accepted in (
+        (0.5, 0.5, True), (0.0, 0.25, True), (0.75, 0.25, False), (0.25, 0.75, False), (0.75, 0.75, False),
+        (math.nan, 0.25, False), (0.25, math.nan, False),
+    ):  # fmt: skip
+        assert bool(ik_all_kernel.is_accepted(position, rotation, 0.5)) is accepted
+
+
+def test_numbers_of_a_rule_and_a_row_have_places_of_their_own():
+    kernel = ik_all_kernel
+    assert [*range(4)] == [kernel.MAX_ERROR, kernel.MIN_HITS, kernel.RESTARTS, kernel.MAX_MISSES]
+    assert [*range(4)] == [kernel.FOUND, kernel.AT_RESTARTS, kernel.AT_ENDS, kernel.FULL]
+    assert (kernel.RULE, kernel.INFO) == (4, 4)
+
+
 class Search:
     """A search for solutions whose tries end as is written: the place, and whether its columns are
     dependent.
     """
 
-    def __init__(self, monkeypatch, ends: Any, room: int = 8, given: int = 2, **rule: float):
+    def __init__(
+        self, monkeypatch, ends: Any, room: int = 8, given: int = 2, free: Any = (1.0,) * 4, **rule: float
+    ):  # fmt: skip
         self.begun: list[np.ndarray] = []
         self.ends = iter(ends)
         numbers = {"MAX_ERROR": 1e-6, "MIN_HITS": 2.0, "RESTARTS": 20, "MAX_MISSES": 5} | rule
@@ -578,13 +642,19 @@ class Search:
             "is_same",
             lambda problem, target, ends, *rest: bool(np.abs(ends[0] - ends[1]).max() < 1e-3),
         )
-        self.q, self.hits = np.zeros((1, room, 4)), np.zeros((1, room))
+        m = len(free)
+        self.hits = np.zeros((1, room))
+        self.q = np.tile(
+            [0.1, 1.0, 0.2, 0.3, *[0.0] * (m - 4)], (1, room, 1)
+        )  # nothing is known yet
         self.bounds = np.zeros((1, room))
         self.info = np.full((1, ik_all_kernel.INFO), -1.0)
-        starts = np.stack([Q + 50, Q + 60, Q + 70])[None]
+        places = np.tile(Q, 2)[:m]
+        starts = np.stack([places + 50, places + 60, places + 70])[None]
+        limits, ranges, periods = (np.concatenate([a, a])[:m] for a in (WIDE, RANGES, PERIODS))
         ik_all_kernel.search.function(
-            ARM, TARGET[None], starts, np.array([given]), WIDE, RANGES, PERIODS, np.ones(4), np.full((1, 4), np.nan),
-            options(), self.rule, np.array([3.0]), 9, self.q, self.hits, self.bounds, self.info
+            ARM, TARGET[None], starts, np.array([given]), limits, ranges, periods, np.array(free),
+            np.full((1, m), 0.25), options(), self.rule, np.array([3.0]), 9, self.q, self.hits, self.bounds, self.info
         )  # fmt: skip
 
     def _descend(
@@ -592,7 +662,8 @@ class Search:
     ) -> tuple[int, float, float, int]:
         self.begun.append(q.copy())
         place, error, self.bad = (*next(self.ends), False)[:3]
-        q[:] = [0.1, place, 0.2, 0.3]
+        q[:4] = [0.1, place, 0.2, 0.3]
+        q[4:] = 0.0
         return codes.SOLVED if error == 0 else codes.STALLED, error, error, 1
 
     @property
@@ -615,6 +686,44 @@ def test_an_odd_number_of_solutions_is_no_reason_to_end_only_with_six_coordinate
         [3],
         [1, 1, 3, 0],
     )  # a random try at least
+
+
+@pytest.mark.parametrize(
+    ("free", "hits"), [((1,) * 5, 3), ((1,) * 6, 16), ((1,) * 7, 3), ((1, 1, 1, 1, 0, 1, 1), 16)]
+)
+def test_of_six_free_coordinates_an_odd_number_is_looked_into_eight_times_longer(
+    free, hits, monkeypatch
+):
+    monkeypatch.setattr(ik_all_kernel, "condition_bound", lambda *rest: 0.5)
+    found = Search(monkeypatch, [(1, 0)] * 20, free=np.array(free, float), MIN_HITS=2.0)
+    assert found.found[:2] == ([1], [hits])
+
+
+def test_each_given_start_is_tried_and_a_random_one_whatever_was_found(monkeypatch):
+    found = Search(monkeypatch, [(1, 0)] * 20, given=3, MIN_HITS=1.0)
+    assert found.found == ([1], [4], [1, 1, 4, 0])
+
+
+def test_a_search_without_restarts_has_none(monkeypatch):
+    assert Search(monkeypatch, [(1, 0)] * 3, RESTARTS=0).found == ([1], [2], [1, 0, 2, 0])
+    full = Search(monkeypatch, [(1, 0), (2, 0), (3, 0)], given=3, room=1)
+    assert full.found == ([1], [1], [1, 0, 2, 1])
+
+
+def test_a_search_of_an_arm_finds_where_it_can_be(monkeypatch):
+    solution = np.array([0.8, -0.2, 0.6, 0.9])
+    rule = np.zeros(ik_all_kernel.RULE)
+    rule[ik_all_kernel.MAX_ERROR], rule[ik_all_kernel.MIN_HITS] = 1e-6, 1.0
+    q, hits, bounds = np.zeros((1, 8, 4)), np.zeros((1, 8)), np.zeros((1, 8))
+    info = np.zeros((1, ik_all_kernel.INFO))
+    ik_all_kernel.search.function(
+        ARM, TARGET[None], solution[None, None] + 0.01, np.ones(1), WIDE, RANGES, PERIODS, np.ones(4),
+        np.full((1, 4), np.nan), options(), rule, np.zeros(1), 9, q, hits, bounds, info
+    )  # fmt: skip
+    assert info.tolist() == [[1, 0, 1, 0]]
+    assert q[0, 0] == pytest.approx(solution, abs=1e-7)  # of errors of 1e-9
+    sizes = np.linalg.svd(ARM.jacobian(solution, "hybrid"), compute_uv=False)
+    assert 0.0 < bounds[0, 0] <= sizes[-1] / sizes[0]
 
 
 def test_what_is_not_accepted_is_no_solution(monkeypatch):

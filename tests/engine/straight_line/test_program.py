@@ -12,10 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from poekin.engine.kernels import arm_kernels
-from poekin.engine.straight_line import interpret
+from poekin.engine.straight_line import interpret, specialise
 from poekin.engine.straight_line.arm_code import ArmCode
 from poekin.engine.straight_line.machine_code import object_code
-from poekin.engine.straight_line.program import Angle, Angles, Program, program
+from poekin.engine.straight_line.program import Angle, Angles, Program, joined, program
 from poekin.engine.straight_line.trace import Graph
 
 ROWS = 7  # four at a time, and three one at a time
@@ -45,11 +45,11 @@ class Both:
 
 
 @st.composite
-def programs(draw):
-    """A program of six outputs a coordinate, its configurations, and what it has to give with how
-    large it was.
+def programs(draw, m=None):
+    """A program of six outputs for each of m coordinates, its configurations, and what it has to give
+    with how large it was.
     """
-    m = draw(st.integers(1, 3))
+    m = m or draw(st.integers(1, 3))
     q = np.random.default_rng(draw(st.integers(0, 2**32 - 1))).uniform(-2, 2, (ROWS, m))
     graph = Graph()
     angles = Angles(graph)
@@ -105,6 +105,19 @@ def test_machine_code_gives_what_was_recorded(case):
         assert (np.abs(got - wanted) <= WITHIN * np.maximum(size, 1)).all()
 
 
+@some_examples
+@given(st.data(), st.integers(1, 3))
+def test_two_programs_joined_give_the_outputs_of_both(data, m):
+    one, q, *_ = data.draw(programs(m))
+    two, *_ = data.draw(programs(m))
+    both = joined(one, two)
+    # the same steps on the same numbers
+    wanted = np.hstack([interpret.evaluate(made, q) for made in (one, two)])
+    np.testing.assert_array_equal(interpret.evaluate(both, q), wanted)
+    assert both.count.sines <= one.count.sines + two.count.sines
+    assert joined(one, one).steps == one.steps
+
+
 @pytest.mark.parametrize(
     "base, terms, offset, cost",
     [
@@ -140,6 +153,10 @@ def test_an_angle_is_made_from_another_only_where_that_saves_something():
     assert chosen(([0.5, 0, 0], 0.0), ([0.5, 1.0, 0], 0.0))[1] == Angle(
         0, ((1, 1.0),), 0.0
     )  # a product less
+    # twice the first coordinate tells nothing of the sum of both: 2 q_0 - q_0 + q_1 is dearer
+    assert chosen(([2.0, 0, 0], 0.0), ([1.0, 1.0, 0], 0.0))[1] == Angle(
+        None, ((0, 1.0), (1, 1.0)), 0.0
+    )
 
 
 def test_of_angles_and_nodes_those_that_no_output_needs_are_left_out():
@@ -159,3 +176,13 @@ def test_operations_of_angles_and_of_steps_are_counted_together():
     s, c = angles.sine_cosine([0.5, 1.0], 0.0, 0)
     count = program(graph, angles, [s * c + s]).count
     assert (count.multiplications, count.additions, count.sines, count.cosines) == (2, 2, 1, 1)
+
+
+def test_the_cost_of_a_sine_or_a_division_is_that_of_ten_products():
+    graph = Graph()
+    angles = Angles(graph)
+    s, c = angles.sine_cosine([1.0], 0.0, 0)
+    t, d = angles.sine_cosine([1.0], 0.5, 0)
+    made = program(graph, angles, [s * c + t * d])
+    assert (made.count.multiplications, made.count.additions, made.count.sines) == (2, 2, 2)
+    assert specialise._cost(made) == 2 + 2 + 10 * 2

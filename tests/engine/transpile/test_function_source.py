@@ -105,6 +105,14 @@ def keyword(a, out):
     out[0] = abs(x=a[0])  # type: ignore[call-arg]
 
 
+def one_too_few(a, out):
+    out[0] = larger(a[0])  # type: ignore
+
+
+def larger(x, y):
+    return max(x, y)
+
+
 def a_lambda(a, out):
     out[0] = (lambda x: x)(a[0])
 
@@ -159,6 +167,7 @@ REFUSED = {
     an_attribute: ("a.size", "unpacking into a.size"),
     keyword: ("abs(", "a call with a keyword here"),
     a_lambda: ("(lambda", "the name lambda x: x"),
+    one_too_few: ("larger(", "a call of larger with missing a required argument: 'y'; it"),
 }
 
 

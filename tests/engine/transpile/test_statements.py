@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -30,6 +31,13 @@ def arithmetic(a, out):
     out[-1] = a[-1]
 
 
+def a_whole_row(a, out):
+    p, q, r, s, t, u = a
+    out[0] = p - 2.0 * u
+    out[1] = q - 2.0 * t
+    out[2] = r - 2.0 * s
+
+
 def comparisons(a, out):
     if a[0] < a[1]:
         out[0] = 1.0
@@ -50,6 +58,7 @@ def comparisons(a, out):
         out[5] = 1.0
     if (a[0], a[1]) == (a[2], a[3], a[4]):
         out[6] = 1.0
+    out[7 + int(a[0] < a[1])] = 1.0
 
 
 def numbers_that_are_none(a, out):
@@ -185,8 +194,18 @@ def early(a, out):
     out[0] = -1.0
 
 
+def a_bound_that_changes(a, out):
+    n = 3
+    for i in range(n):
+        n -= 1
+        out[i] = a[i]
+    out[4] = n
+
+
 CONSTRUCTS = (
+    a_bound_that_changes,
     arithmetic,
+    a_whole_row,
     comparisons,
     numbers_that_are_none,
     tuples,
@@ -220,3 +239,21 @@ def test_of_each_construct_there_is_one_function_with_its_docstring_above():
     text = text_of(tuples)
     assert text.count("t_test_statements_swapped(") == 2  # its definition and a call
     assert "/* Tuples of tuples, of truth values, and of several types. */\nstatic " in text
+
+
+def test_nothing_is_multiplied_by_one_or_moved_by_none():
+    text = text_of(*CONSTRUCTS)
+    assert re.findall(r"[^\n]*(?:\b1 \* |\+ 0\b(?!\.))[^\n]*", text) == []
+
+
+def test_what_is_written_once_is_const():
+    text = text_of(*CONSTRUCTS)
+    bodies = [body for body in re.split(r"^}$", text, flags=re.MULTILINE) if "{" in body]
+    declared = re.compile(r"^ +(const )?(?:double|int64_t|int) (\w+) = ", re.MULTILINE)
+    for body in bodies:
+        found = declared.findall(body)
+        for const, name in found:
+            writes = re.findall(rf"\b{name}(?: [-+*/]?= |\+\+)|&{name}\b", body)
+            declarations = [other for _, other in found if other == name]
+            assert bool(const) == (len(writes) == len(declarations)), name
+    assert len(declared.findall(text)) > 20

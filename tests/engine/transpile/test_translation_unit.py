@@ -164,6 +164,7 @@ def about_axis(arm, a, out):
     out[3] = a[3] / k[2]
     out[4] = known(k, 2) + a[5]
     out[5] = arm[1, 0] * a[0] + arm[1, 2] * a[1]
+    out[6] = k[1] - -a[4]
 
 
 def unread(x):
@@ -190,6 +191,7 @@ def test_what_the_arm_tells_to_be_0_or_1_but_for_rounding_is_multiplied_by_and_a
         "out[2] = 0.0;",
         "out[3] = a[3];",
         "out[4] = 2.0 + a[5];",
+        "out[6] = -(-a[4]);",
         # beyond that rounding they stay
         "out[5] = 3e-16 * a[0] + 1.0000000000000004 * a[1];",
     ):

@@ -173,3 +173,13 @@ def test_an_archive_of_more_files_than_anybody_has_is_refused_before_they_are_li
 
 def _many(files: list[tuple[str, bytes]]) -> bytes:
     return b"PK\x03\x04" + b"PK\x01\x02" * (len(files) + 1)
+
+
+def test_ten_thousand_files_are_listed_and_one_more_is_not():
+    files = [("", b"")] * 10_000
+    with pytest.raises(
+        FileError, match=r"^f: expected an archive of at most 10000 files, got more$"
+    ):
+        compressed.decompress(_many(files), "f")
+    with pytest.raises(FileError, match=r"^f: cannot be decompressed"):
+        compressed.decompress(_many(files[1:]), "f")

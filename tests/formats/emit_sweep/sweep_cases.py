@@ -8,6 +8,7 @@ import numpy as np
 
 from poekin.formats.emit.sweep.cuda import Measure
 from poekin.sweep import Cells, Grid, Random, Sweep, run
+from poekin.sweep.samples import Samples
 from tests.sweep.arms import measured
 
 from ..emitted import arm
@@ -35,11 +36,17 @@ def case(key: str) -> Sweep:
     return Sweep(chain, Grid.of(chain, counts), CUBES, measure)
 
 
+def samples_of(sweep: Sweep) -> Samples:
+    """The sweep's samples, which are configurations."""
+    assert isinstance(sweep.samples, Samples)
+    return sweep.samples
+
+
 def arguments(sweep: Sweep) -> tuple:
     """Samples, bounds, cells and place as the text takes them."""
-    samples = tuple(sweep.samples.numbers().tolist())
+    samples = samples_of(sweep)
     cells = tuple(sweep.cells.numbers().tolist())
-    return samples, sweep.samples.bounds, cells, sweep.cells.place()
+    return tuple(samples.numbers().tolist()), samples.bounds, cells, sweep.cells.place()
 
 
 def check(sweep: Sweep, counts, best: Any = None, attained: Any = None, rtol=1e-9) -> None:

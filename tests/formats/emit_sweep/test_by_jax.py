@@ -14,7 +14,7 @@ import pytest
 from poekin.formats import emit
 
 from ..emitted import bound
-from .sweep_cases import CASES, arguments, case, check
+from .sweep_cases import CASES, arguments, case, check, samples_of
 
 
 @pytest.fixture(scope="module")
@@ -39,12 +39,13 @@ def by_jax(tmp_path_factory):
 @pytest.mark.parametrize("key", CASES)
 def test_jax_jits_it_and_differentiates_it(key, by_jax):
     sweep = case(key)
+    samples = samples_of(sweep)
     chain = sweep.chain
     with np.load(by_jax / f"{key}.npz") as found:
         check(sweep, *(found[f"arr_{k}"] for k in range(1 + 2 * sweep.is_measured)))
-        wanted = sweep.samples.configurations(np.arange(sweep.samples.count))
+        wanted = samples.configurations(np.arange(samples.count))
         # a product and a sum of numbers up to the bounds, fused or not
-        largest = np.abs(sweep.samples.bounds).sum()
+        largest = np.abs(samples.bounds).sum()
         np.testing.assert_allclose(found["q"], wanted, rtol=0, atol=2 * 2.0**-53 * largest)
         q = chain.random(0, 5)
         allowed = bound(chain, q)

@@ -16,7 +16,7 @@ from poekin.sweep import Cells
 
 from ..emitted import HOSTILE, arm, bound, module, with_name
 from .jax_by_numpy import Updated, by_numpy
-from .sweep_cases import CASES, CELLS, arguments, case, check
+from .sweep_cases import CASES, CELLS, arguments, case, check, samples_of
 
 ROUNDOFF = {"float64": 2.0**-53, "float32": 2.0**-24}
 
@@ -45,7 +45,7 @@ def test_by_numpy_configurations_are_those_of_the_sweep(key, precision):
     numbers = np.arange(sweep.samples.count)
     samples, bounds, _, _ = arguments(sweep)
     q = functions["configurations"](numbers, samples, bounds)
-    expected = sweep.samples.configurations(numbers)
+    expected = samples_of(sweep).configurations(numbers)
     assert q.dtype == precision
     np.testing.assert_array_equal(q, expected.astype(precision))
     T = functions["fk"](q, np)

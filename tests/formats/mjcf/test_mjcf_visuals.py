@@ -136,6 +136,16 @@ def test_what_cannot_be_drawn_is_left_out_with_its_line(geom, asset, why):
     assert left.place == f"m.xml:{2 + asset.count(chr(10))}"
 
 
+def test_a_mesh_of_five_vertices_is_drawn_with_all_of_them():
+    vertices = [[1, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0], [0, 0, 2]]
+    faces = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]]
+    words = [" ".join(str(x) for row in rows for x in row) for rows in (vertices, faces)]
+    asset = f'<mesh name="p" vertex="{words[0]}" face="{words[1]}"/>'
+    (shape,) = looks('<geom type="mesh" mesh="p"/>', asset).found
+    assert shape.triangles is not None
+    assert [part.tolist() for part in shape.triangles] == [vertices, faces]
+
+
 def test_a_model_whose_include_is_gone_is_seen_without_shapes(tmp_path):
     (tmp_path / "part.xml").write_text(f"<mujoco><worldbody>{BALL}</worldbody></mujoco>")
     (tmp_path / "m.xml").write_text('<mujoco><include file="part.xml"/></mujoco>')

@@ -187,7 +187,7 @@ REFUSED = {
     "order": (lambda: pk.poses.from_numbers([0] * 7, "abb", quaternion="xyzw"), InputError,
               "quaternion: the format abb does not take an order; expected with quat only"),
     "no numbers": (lambda: pk.poses.from_numbers(["a"] * 6, "abc"), InputError,
-                   "numbers: expected real numbers, got str32 (list)"),
+                   "numbers: expected real numbers, got text (list)"),
     "long": (lambda: pk.poses.from_numbers([[[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 1, 0, 0]]], "abb"), PoseError,
              "numbers[0, 1]: the quaternion's length is 1.41421, expected 1 within 0.001"),
     "no pose": (lambda: pk.poses.to_numbers(np.ones((4, 4)), "abc"), PoseError, "T is no pose: "),

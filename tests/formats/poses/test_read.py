@@ -282,11 +282,15 @@ def test_what_is_refused_is_said_with_line_and_cure(case, tmp_path, monkeypatch)
     assert "\n" not in str(caught.value)
 
 
-def test_an_empty_text_has_no_poses(tmp_path):
+def test_an_empty_text_is_refused_and_one_of_names_alone_has_no_poses(tmp_path):
     path = tmp_path / "none.csv"
     path.write_text("")
-    assert pk.poses.read(path, "abc").shape == (0, 4, 4)
-    assert pk.poses.read("\n \n", "abc").shape == (0, 4, 4)
+    for empty in (path, "\n \n"):
+        with pytest.raises(
+            pk.errors.InputError, match="rows of numbers expected, the file is empty"
+        ):
+            pk.poses.read(empty, "abc")
+    assert pk.poses.read("X,Y,Z,A,B,C\n", "abc").shape == (0, 4, 4)
 
 
 def test_a_text_is_of_bounded_length(tmp_path, monkeypatch):

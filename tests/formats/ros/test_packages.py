@@ -104,11 +104,14 @@ def test_links_that_go_round_end_and_a_crawl_is_bounded(tmp_path, monkeypatch):
     found = package(tmp_path / "b" / "my_arm")
     monkeypatch.setenv(packages.ROS, str(tmp_path))
     assert packages.find("my_arm") == str(found)
-    monkeypatch.setattr(packages, "MOST_FOLDERS", 2)
+    # the folder itself, a, b and b/my_arm
+    monkeypatch.setattr(packages, "MOST_FOLDERS", 4)
+    assert packages.find("my_arm") == str(found)
+    monkeypatch.setattr(packages, "MOST_FOLDERS", 3)
     with pytest.raises(FileError) as caught:
         packages.find("my_arm")
     assert str(caught.value) == (
-        "ROS_PACKAGE_PATH: expected at most 2 folders below it, there are more:"
+        "ROS_PACKAGE_PATH: expected at most 3 folders below it, there are more:"
         " name the folders that hold the packages"
     )
 

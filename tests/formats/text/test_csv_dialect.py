@@ -84,6 +84,7 @@ def test_commas_that_could_all_be_of_thousands_are_read_as_decimals_and_told():
     assert [str(w.message) for w in told] == [
         "f.csv: every comma is before three digits; read as decimal commas (1,234 is 1.234)"
     ]
+    assert told[0].filename == __file__
     # one that can be nothing else settles it
     for text in ("100,250;0,125;3\n", "100,250;2,1254;3\n", "1,250;2;3\n4,5;6;7\n"):
         assert len(read(text)) >= 1

@@ -130,3 +130,31 @@ def test_the_time_that_a_header_takes_grows_as_its_number_of_words():
     found = headings(names, names)
     assert [one.name for one in found] == list(names)
     assert order(found, Columns(names, "column"), "here") == list(range(len(names)))
+
+
+JOINTS = Columns(("pan", "lift"), "coordinate", ("rad", "m"))
+
+
+@pytest.mark.parametrize("header", ["q1,q2", "Q1,Q2", "joint_1,joint_2", "J0,J1"])
+def test_coordinates_may_be_numbered_from_1_or_0(header):
+    np.testing.assert_array_equal(read(f"{header}\n1,2\n", JOINTS), [[1, 2]])
+    second_first = ",".join(reversed(header.split(",")))
+    np.testing.assert_array_equal(read(f"{second_first}\n1,2\n", JOINTS), [[2, 1]])
+
+
+def test_numbered_coordinates_say_their_units():
+    rows = read("joint_2 [mm],joint_1_deg\n5,180\n", JOINTS)
+    np.testing.assert_array_equal(rows, [[np.pi, 0.005]])
+
+
+def test_a_chain_s_own_names_come_before_numbers():
+    own = JOINTS._replace(names=("q2", "q1"))
+    np.testing.assert_array_equal(read("q1,q2\n1,2\n", own), [[2, 1]])
+    np.testing.assert_array_equal(read("pan,lift\n1,2\n", JOINTS), [[1, 2]])
+
+
+def test_numbers_of_two_kinds_and_other_columns_are_refused():
+    with pytest.raises(UnknownName, match="'theta1' is neither a number nor a coordinate"):
+        read("theta1,axis2\n1,2\n", JOINTS)
+    with pytest.raises(UnknownName, match="'q1' is neither a number nor a column"):
+        read("q1,q2\n1,2\n", JOINTS._replace(what="column"))

@@ -26,10 +26,11 @@ def test_rows_come_in_the_order_of_the_names_with_their_lines():
     assert read("1,2,3\n\n4,5,6\n") == ([[1, 2, 3], [4, 5, 6]], [1, 3])
     assert read("\n c, a ,b\n3,1,2\n") == ([[1, 2, 3]], [3])
     assert read("t,b,c,a\n9,2,3,1\n", besides=("t",)) == ([[1, 2, 3]], [2])
-    assert read("") == ([], [])
+    assert read("a,b,c\n") == ([], [])
 
 
 REFUSED = {
+    "empty": ("\n \n", InputError, "f.csv: rows of numbers expected, the file is empty"),
     "too few": ("1,2,3\n1,2\n", InputError, "f.csv:2: 3 values expected (a, b, c), got 2"),
     "too few by the header": ("t,a,b,c\n1,2,3\n", InputError, "f.csv:2: 4 values expected, as the header has, got 3"),
     "no number": ("1,2,3\n\n4,x,6\n", InputError, "f.csv:3, column 2: a number expected, got 'x'"),

@@ -75,6 +75,14 @@ def test_what_a_key_does_not_hold_is_said_with_the_key(case):
     assert str(caught.value) == message
 
 
+def test_of_a_table_s_name_80_characters_are_said():
+    for length, said in ((80, "k" * 80), (81, "k" * 79 + "…")):
+        keys = toml_text.Keys({"k" * length: {}}, "f")
+        with pytest.raises(ModelError) as caught:
+            keys.table("k" * length).text("none")
+        assert str(caught.value) == f"f: {said}: none is missing"
+
+
 def test_what_a_key_holds_is_given_as_what_it_is():
     keys = toml_text.Keys(toml_text.parse(DATA, "f"), "f")
     assert (keys.text("word"), keys.text("word", ("b", "a")), keys.texts("words")) == (

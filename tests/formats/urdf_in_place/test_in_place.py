@@ -7,6 +7,7 @@ import re
 import warnings
 import zipfile
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -509,3 +510,26 @@ def test_a_compressed_urdf_is_edited_as_what_is_in_it(tmp_path):
         pk.to_urdf(chain, into=str(tmp_path / "arms.zip/gone.urdf"))
     with pytest.raises(FileError, match=r"^<text>: cannot be decompressed"):
         pk.to_urdf(chain, into=content[:40])
+
+
+@pytest.mark.parametrize("at", [*np.ndindex(3, 4)])
+@pytest.mark.parametrize(("off", "refused"), [(0.9, False), (1.1, True)])
+def test_a_text_is_refused_where_any_number_of_a_pose_is_off_by_more_than_rounding(
+    at, off, refused
+):
+    robot = pk.from_text(ARM, "arm.urdf")
+    size = 3.0
+    wanted = robot.fk(np.zeros(robot.dof))
+    child = robot.joints[-1].child
+    change = off * EXACT * (size if at[1] == 3 else 1)
+    given: Any = SimpleNamespace(
+        fk=lambda q: wanted | {child: wanted[child].copy()}, dof=robot.dof, joints=robot.joints
+    )
+    asked = dict(wanted)
+    asked[child] = wanted[child].copy()
+    asked[child][at] += change
+    if refused:
+        with pytest.raises(ModelError, match=r"does not read as the robot, by 1\.1e-13"):
+            in_place._check(given, robot, asked, size, "arm.urdf")
+    else:
+        in_place._check(given, robot, asked, size, "arm.urdf")

@@ -64,6 +64,11 @@ BAD: list[tuple[dict[str, Any], type[PoekinError], str]] = [
         "axes: expected shape (6, 3), one axis a joint, got (5, 3)",
     ),
     (
+        {"axes": [*Y[:5], Y[5], Y[5]]},
+        ShapeError,
+        "axes: expected shape (6, 3), one axis a joint, got (7, 3)",
+    ),
+    (
         {"axes": [*Y[:5], [0, 1, 1e-3]]},
         InputError,
         "axes[5]: expected a unit vector, got [0.0, 1.0, 0.001]",

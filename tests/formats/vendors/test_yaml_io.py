@@ -69,6 +69,9 @@ def test_the_text_is_the_vendor_s_form():
     assert rizon[16] == "    axis: 0.0 1.0 0.0"
     assert rizon[-7] == "  link7_to_flange:"
     assert len(rizon) == 1 + 7 * 8 + 7
+    assert (
+        make_text(FactoryCalibration(np.eye(4)[None].repeat(6, 0))).splitlines()[-1] == '  hash: ""'
+    )
     marked = FactoryCalibration(RIZON.poses, "sn-1", RIZON.naming, RIZON.axes, RIZON.flange)
     assert make_text(marked).splitlines()[-1] == '  hash: "sn-1"'
 

@@ -128,14 +128,18 @@ FAULTY = {
     visual(
         '<box size="1 2 -3"/>'
     ): r"expected positive lengths in size, got \(1\.0, 2\.0, -3\.0\)$",
-    visual("<box/>"): "expected positive lengths in size",
+    visual(
+        "<box/>"
+    ): r"^link 'a': <visual>: <geometry>: <box>: expected positive lengths in size, got \(\)$",
     visual('<cylinder radius="x" length="1"/>'): "radius must be a finite number",
-    visual("<sphere/>"): "expected positive lengths in radius",
+    visual("<sphere/>"): r"<sphere>: expected positive lengths in radius, got \(0\.0,\)$",
     visual(
         '<cylinder radius="0" length="-1"/>'
     ): r"expected positive lengths in radius and length, got \(0\.0, -1\.0\)$",
     visual('<mesh scale="1 1 1"/>'): "expected an attribute filename",
-    visual('<mesh filename="a" scale="1 0 1"/>'): "scale must not be zero",
+    visual(
+        '<mesh filename="a" scale="1 0 2"/>'
+    ): r"^link 'a': <visual>: <geometry>: <mesh>: scale must not be zero, got \(1\.0, 0\.0, 2\.0\)$",
     visual(BALL, '<origin xyz="1 2"/>'): "xyz must be three numbers",
     visual(BALL, '<material><color rgba="1 2"/></material>'): "rgba must be four numbers",
 }

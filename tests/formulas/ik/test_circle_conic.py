@@ -243,6 +243,45 @@ def test_a_step_to_the_roots_is_that_of_laguerre_and_its_real_part_where_they_ar
         assert got == pytest.approx(expected, rel=1e-13)
 
 
+def halved(conic):
+    """A, B/2, C, D/2, E/2, F, of a sum of 1/2."""
+    Q = np.array(conic) / [1, 2, 1, 2, 2, 1]
+    return tuple(Q / (2 * np.abs(Q).sum()))
+
+
+@pytest.mark.parametrize("scale", (1.0, -1.0))
+@pytest.mark.parametrize("gap", (1e-2, 1e-4, 1e-6))
+def test_points_that_nearly_meet_are_parted_whichever_sign_the_equation_has(scale, gap):
+    rng = np.random.default_rng(18)
+    for a in rng.uniform(-np.pi, np.pi, 10):
+        with mpmath.workdps(60):
+            Q = halved(of_angles((a, a + gap, a + 1.3, a + 2.5), scale, rng))
+        middle = a + gap / 2
+        parted = circle_conic._touching(Q, math.cos(middle), math.sin(middle), 1e-9)
+        assert parted[4] == 1e-9
+        found = sorted(apart(angle(*pair), a) for pair in (parted[:2], parted[2:4]))
+        # what rounding costs: the left side is right to some u, its slope is about the gap
+        assert found == pytest.approx([0.0, gap], abs=100 * UNIT / gap)
+
+
+def test_laguerre_s_steps_end_before_the_left_side_would_become_larger():
+    """Where there is no point it never is 0: it becomes smaller, and in the end is kept."""
+    rng = np.random.default_rng(19)
+    for _ in range(100):
+        A, B, C, D, E = rng.normal(size=5)
+        F = 1.1 * (abs(A) + abs(B) + abs(C) + abs(D) + abs(E))
+        Q = halved((A, B, C, D, E, F))
+        theta = rng.uniform(-np.pi, np.pi)
+        c, s = math.cos(theta), math.sin(theta)
+        values = [circle_conic.derivatives(Q, c, s)[0]]
+        while len(values) < 3 or values[-1] != values[-2]:
+            assert len(values) < 200
+            c, s, left = circle_conic._laguerre(Q, c, s, 16.0)
+            assert left == circle_conic.derivatives(Q, c, s)[0]
+            assert 0.0 < left <= values[-1]
+            values.append(left)
+
+
 def test_points_less_sharp_are_right_to_rounding_of_the_pencil():
     """100 u where no points meet: what is left to the rule that sharpens both angles of `two_circles`."""
     rng = np.random.default_rng(15)

@@ -221,7 +221,7 @@ def test_each_angle_in_an_equation_of_its_own_is_four_roots(roots):
 def continua(rng):
     """Equations that hold one angle, or are one equation, or where one is of zeros."""
     A, B, theta, phi = halves(rng)
-    kind = rng.integers(5)
+    kind = rng.integers(6)
     if kind == 0:
         A *= 0.0
     if kind == 1:
@@ -232,9 +232,12 @@ def continua(rng):
     if kind == 3:
         A[1] = -A[0]
         B[1] = -B[0]
-    if kind == 4:
+    if kind >= 4:
         A[1] *= 0.0
         B[1] *= 0.0
+    if kind == 5:
+        A[0, 0] = 0.0
+        B[0, 0] = 0.0
     return through(A, B, theta, phi)
 
 
@@ -341,3 +344,15 @@ def test_the_steepest_step_goes_along_the_gradient_to_the_least_residual():
         step = two_circles._steepest(*left, *J.T.ravel())
         np.testing.assert_allclose(step, expected, rtol=1e-12)
     assert two_circles._steepest(0.1, 0.2, 0.0, 0.0, 0.0, 0.0) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(("margin", "moves"), [(-0.01, False), (-1e-4, True), (0.5, True)])
+def test_a_root_is_sharpened_but_where_it_is_far_from_real(margin, moves):
+    rng = np.random.default_rng(20)
+    for _ in range(10):
+        A, B, theta, phi = halves(rng)
+        first, second = through(A, B, theta, phi)
+        away = (math.cos(theta + 0.01), math.sin(theta + 0.01), math.cos(phi), math.sin(phi))
+        root = (*away, margin)
+        found = two_circles._sharpened(first, second, root)
+        assert (found != root) == moves

@@ -132,3 +132,9 @@ def test_the_rule_ends_where_errors_within_1e_9_stop_falling_and_keeps_the_least
     least = confirmed.size(confirmed.pose_error(ARM.fk(found[0]), T), ARM.reach)
     # squares of 1e-11, which rounding changes by some 1e-5 of them
     assert least == pytest.approx(min(errors), rel=1e-3)
+
+
+def test_a_size_is_the_sum_of_six_squares_lengths_by_the_reach():
+    e = np.array([2.0, 3.0, 5.0, 7.0, 11.0, 13.0])
+    assert confirmed.size(e, 1.0) == 4 + 9 + 25 + 49 + 121 + 169
+    assert confirmed.size(e, 0.5) == 4 + 9 + 25 + 4 * (49 + 121 + 169)

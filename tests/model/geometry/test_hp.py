@@ -157,3 +157,23 @@ def test_coupled_joints_are_refused():
         InputError, match=r"the 2 joints of 'base' -> 'tool' are coupled to 1 coordinates"
     ):
         chain.to_hp()
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_axes_share_a_point_where_they_pass_each_other_within_rounding_of_the_reach(size):
+    home = pk.se3.pose(np.eye(3), [0, 0, 2 * size])
+
+    def steps(gap):
+        rows = [
+            pk.screw.revolute([0, 0, 1], [0, 0, 0]),
+            pk.screw.revolute([1, 0, 0], [0, gap, size]),
+        ]
+        chain = pk.Chain.from_space(rows, home)
+        return chain.reach, chain.to_hp().P
+
+    reach, P = steps(0.0)
+    assert P[1].tolist() == [0, 0, 0]
+    _, P = steps(1e-14 * reach)
+    assert P[1].tolist() == [0, 0, 0]
+    _, P = steps(4e-14 * reach)
+    assert P[1][1:] == pytest.approx([4e-14 * reach, size], rel=1e-3)

@@ -496,3 +496,15 @@ def test_the_code_that_is_kept_is_that_of_the_arm_s_structure(monkeypatch, tmp_p
         chain.screws, chain.home, joint_names=chain.joint_names, limits=chain.limits
     )
     assert np.abs(again.compile().fk(chain.random(0)) - before).max() > 1.0
+
+
+def test_results_of_another_order_of_bytes_are_refused_whatever_q_is():
+    arm = pk.load("ur5e").chain().compile()
+    q = np.zeros(6)
+    native = q.dtype
+    swapped = native.newbyteorder()
+    for order in (native, swapped):
+        for T, J in ((swapped, native), (native, swapped)):
+            out = (np.empty((4, 4), T), np.empty((6, 6), J))
+            with pytest.raises(InputError, match="expected"):
+                arm.fk_jacobian(q.astype(order), "body", out=out)

@@ -149,6 +149,7 @@ def test_configurations_and_rates_broadcast_and_may_be_dicts():
     q, dq = rng.normal(size=(4, 1, 3)), rng.normal(size=(2, 3))
     assert arm.jacobian_rate(q, dq, "space").shape == (4, 2, 6, 3)
     assert arm.acceleration(q, dq, dq, "body").shape == (4, 2, 6)
+    assert arm.jacobian_rate(q[0, 0], dq, "space").shape == (2, 6, 3)
     named = dict(zip("abc", q[0, 0], strict=True))
     np.testing.assert_array_equal(arm.hessian(named, "hybrid"), arm.hessian(q[0, 0], "hybrid"))
 

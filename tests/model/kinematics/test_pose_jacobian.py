@@ -1,11 +1,14 @@
 """How configurations and output arrays get to the kernels, and what does not."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import poekin as pk
 from poekin.errors import InputError, ShapeError
 from poekin.formats import erd
+from poekin.model.kinematics import pose_jacobian
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 Q = ARM.random(0, 5)
@@ -133,3 +136,11 @@ def test_a_way_in_for_one_configuration_minds_its_length():
         ):
             with pytest.raises(ShapeError, match="q: expected 7 coordinates on the last axis"):
                 call(wrong)
+
+
+def test_where_the_jacobian_alone_is_asked_for_one_pose_holds_all_of_its_poses(monkeypatch):
+    given = []
+    kernel = SimpleNamespace(call=lambda table, rows, code, T, J: given.append(T.shape))
+    monkeypatch.setattr(pose_jacobian.chain_kernels, "pose_jacobian_many", kernel)
+    pose_jacobian.jacobian(ARM, Q, "body")
+    assert given == [(1, 4, 4)]

@@ -70,7 +70,7 @@ def test_a_name_that_nobody_has_is_answered_with_the_closest(owner, name, words)
 
 
 def test_chains_and_robots_are_copied_and_pickled_as_before():
-    for thing in (CHAIN, ARM):
+    for thing in (CHAIN, ARM, CHAIN.compile()):
         assert (
             copy.copy(thing) == copy.deepcopy(thing) == pickle.loads(pickle.dumps(thing)) == thing
         )

@@ -263,3 +263,15 @@ def test_own_readings_are_told_from_other_coordinates():
     names = coupled.q_names[::-1]
     turned = coupled.replace(coupling=coupled.coupling[:, ::-1], q_names=names, limits=None)
     np.testing.assert_array_equal(own_readings(turned), coupled.coupling)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_rounding_of_an_inverse_makes_no_reading_depend_on_an_unlimited_coordinate(size):
+    # three rotations by a third of a turn are the identity but for rounding
+    c, s = -0.5, 0.75**0.5
+    R = np.array([[c, -s], [s, c]])
+    K = R @ R @ R / size
+    assert K[0, 1] != 0
+    found = reading_limits(K, np.array([[-1.0, 2.0], [-np.inf, np.inf]]))
+    np.testing.assert_allclose(found[0], [-size, 2 * size], rtol=1e-14)
+    assert found[1].tolist() == [-np.inf, np.inf]

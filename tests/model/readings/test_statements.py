@@ -90,6 +90,18 @@ def test_all_else_is_refused_with_what_was_expected(statement, message):
     assert str(caught.value) == f"coupling: {message}"
 
 
+def test_what_is_singular_does_not_depend_on_the_unit():
+    np.testing.assert_array_equal(parse_statements("J1 = 1e-10 J1", ["J1"]), [[1e-10]])
+
+
+def test_a_name_ends_where_its_own_last_character_says():
+    names = ("a-", "b", "c_")
+    with pytest.raises(InputError, match="expected '\\+' or '-' between readings, got 'b'"):
+        parse_statements("a- = a-b", names)
+    with pytest.raises(InputError, match="got 'c_b'; did you mean 'c_'"):
+        parse_statements("a- = c_b", names)
+
+
 def test_a_robot_of_more_than_a_thousand_coordinates_is_refused():
     with pytest.raises(InputError) as caught:
         parse_statements("J3 = J2 + J3", [f"j{k}" for k in range(MOST + 1)])

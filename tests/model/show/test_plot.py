@@ -72,6 +72,7 @@ def test_the_frames_are_those_of_base_and_tool_to_one_scale(arm):
     assert len(frames) == 2 * len(AXES_COLORS)
     widths = np.ptp([axes.get_xlim3d(), axes.get_ylim3d(), axes.get_zlim3d()], axis=1)
     assert np.allclose(widths, widths[0])
+    assert np.ptp(axes._box_aspect) == 0.0  # and they are drawn as long
 
 
 def test_axes_their_numbers_and_labels_are_within_the_page(arm):

@@ -20,7 +20,8 @@ def test_a_chain_shows_its_screws_and_limits_joint_by_joint():
     limits = [(-np.inf, np.inf), (-0.1, 0.25)]
     arm = pk.Chain(screws, np.eye(4), frame="space", joint_names=["<b>", "slide"], limits=limits)
     html = arm._repr_html_()
-    assert "Chain base → tool, space screws at q = 0, reach" in html
+    # 0.2 to the first axis, 0.2 back to the tool at the origin, and 1 for a unit of the slide
+    assert "Chain base → tool, space screws at q = 0, reach 1.4 m" in html
     assert cells(html) == [
         ["&lt;b&gt;", "revolute", "0, 0, 1", "0, -0.2, 0", ""],
         ["slide", "prismatic", "0, 0, 0", "1, 0, 0", "-0.1 … 0.25"],

@@ -119,9 +119,12 @@ REFUSED = [
     (pk.LinkMass("hand", float("nan")), "got (nan, "),
     (pk.LinkMass("hand", 1.0, (2 * FARTHEST, 0, 0)), "and its centre within 100 m"),
     (pk.LinkMass("hand", 1.0, (0, 0)), "got (1.0, (0, 0))"),  # type: ignore[arg-type]
-    (pk.LinkMass("foot", 1.0), "masses: expected a LinkMass of each link at most once"),
+    (
+        pk.LinkMass("foot", 1.0),
+        "robot 'r': masses: expected a LinkMass of each link at most once, got LinkMass(link='foot'",
+    ),
     (MASSES[1], "masses: expected a LinkMass of each link at most once"),
-    (("hand", 1.0), "masses: expected a LinkMass"),
+    (("hand", 1.0), "masses: expected a LinkMass of each link at most once, got ('hand', 1.0)"),
 ]
 
 

@@ -178,3 +178,12 @@ def test_names_out_of_files_stand_in_comments_only(name):
     assert plain.isascii()
     assert plain.count("*/") == plain.count("/*") == 1
     assert callable(module(found.emit("python", origin=name)).true_joints)
+
+
+def test_python_says_of_what_shape_readings_conditions_and_values_are():
+    told = {
+        "every term": "True joint values (..., 6) of readings q, under conditions (..., 17).",
+        "coupled, upright": "True joint values (..., 6) of readings q.",
+    }
+    for name, words in told.items():
+        assert f'    """{words}"""\n' in CASES[name].emit("python", origin="a test")

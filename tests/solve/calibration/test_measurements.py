@@ -259,6 +259,11 @@ BAD: dict[str, tuple] = {
         ShapeError,
         "centre: expected three numbers, got [0, 0]",
     ),
+    "a centre of four numbers": (
+        lambda: Distances([1.0], centre=[0, 0, 0, 1]),
+        ShapeError,
+        "centre: expected three numbers, got [0, 0, 0, 1]",
+    ),
     "a covariance's shape": (
         lambda: Poses(T, np.eye(3)),
         ShapeError,

@@ -88,3 +88,52 @@ def test_settings_become_keys_where_they_are_vectors_or_mappings():
         InputError, match=r"^lock: expected a dict of names and values, got \[\('a', 1\)\]$"
     ):
         items([("a", 1)])
+
+
+@pytest.mark.parametrize("unlimited", [False, True])
+def test_targets_whose_joints_are_beyond_their_own_limits_are_solved_again_from_other_starts(
+    unlimited, monkeypatch
+):
+    made = ik_problem.IKProblem(ARM, GIVEN)
+    monkeypatch.setattr(made, "has_joint_limits", True)
+    asked: list[list[float]] = []
+
+    def solved(targets, indices, q0, **options):
+        asked.append(indices.tolist())
+        assert (len(asked) == 1) != np.isnan(q0).all()
+        assert targets[:, 0, 0].tolist() == [index % 1e9 for index in indices]
+        info = np.zeros((len(targets), codes.INFO))
+        info[:, codes.AT_STATE] = np.where(indices == 0, codes.STALLED, codes.SOLVED)
+        # target 2 keeps its joints' limits the third time, target 3 never does
+        kept = (indices % 1e9 == 1) | ((indices % 1e9 == 2) & (indices > 1.5e9))
+        return np.where(kept[:, None], 1.0, 9.0) * np.ones((1, 6)), info
+
+    monkeypatch.setattr(made, "_solved", solved)
+    monkeypatch.setattr(made, "keeps_joints", lambda q: q[:, 0] < 5.0)
+    T = np.arange(4.0)[:, None, None] * np.ones((4, 4))
+    options = {"limits": np.zeros((6, 2))} if unlimited else {}
+    q, _ = made.solve(T, np.arange(4.0), np.zeros((4, 6)), **options)
+    again = [[2 + 1e9, 3 + 1e9], [2 + 2e9, 3 + 2e9], *([3 + turn * 1e9] for turn in range(3, 30))]
+    assert asked == [[0, 1, 2, 3], *([] if unlimited else again)]
+    assert q[:, 0].tolist() == [9, 1, 9 if unlimited else 1, 9]
+
+
+def test_a_descent_has_no_restarts_unless_it_is_told():
+    options = ik_problem.kernel_options(make_problem(ARM, GIVEN).task, 1e-3, 1e-4, 20)
+    assert options[codes.RESTARTS] == 0
+    assert options[[codes.TOL_POSITION, codes.TOL_ROTATION]].tolist() == [1e-3, 1e-4]
+    assert options[codes.ITERATIONS] == 20
+
+
+@pytest.mark.parametrize("shape", [(6,), (3, 6), (2, 3, 6)])
+def test_locked_coordinates_have_their_value_but_where_nothing_is_known(shape):
+    geared = ARM.chain.replace(
+        coupling=2.0 * np.eye(6), q_names=[*"abcdef"], limits=None, velocity_limits=None
+    )
+    made = make_problem(geared.compile(), GIVEN._replace(lock=(("c", 0.5),)))
+    u = np.arange(np.prod(shape)).reshape(shape) / 8.0
+    expected = u / 2.0
+    expected[..., 2] = 0.5
+    np.testing.assert_array_equal(made.coordinates(u), expected)
+    u[..., 4] = np.nan
+    assert np.isnan(made.coordinates(u)[..., 2]).all()

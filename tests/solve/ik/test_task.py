@@ -46,6 +46,8 @@ def test_the_jacobian_of_a_direction_has_no_turn_about_it():
     across = pk.so3.hat(a)
     np.testing.assert_allclose(across @ found[:, :3], across @ J[:, :3], atol=1e-14)
     np.testing.assert_array_equal(found[:, 3:], J[:, 3:])
+    np.testing.assert_array_equal(task.jacobian(T[:, None], J[:, None]), found[:, None])
+    np.testing.assert_array_equal(task.jacobian(T[0], J[0]), found[0])
     assert make_task("pose", None, None).jacobian(T, J) is J
 
 

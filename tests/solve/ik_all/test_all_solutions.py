@@ -234,9 +234,18 @@ def test_a_result_becomes_json_with_the_solutions_of_each_target():
     assert json.loads(result(1).to_json())["solutions"] == [[0.0, 1.0]]
 
 
-def test_only_a_result_with_samples_has_families():
-    with pytest.raises(InputError, match="families: expected a result of ik_all with n_swivel"):
-        result(2).families()
+@pytest.mark.parametrize("known", [
+    {},
+    {"redundant": "a", "sample": np.zeros(2, int)},
+    {"redundant": "a", "chain": ARM},
+    {"sample": np.zeros(2, int), "chain": ARM},
+])  # fmt: skip
+def test_only_a_result_with_samples_has_families(known):
+    with pytest.raises(
+        InputError,
+        match=r"^families: expected a result of ik_all with n_swivel, of a redundant arm$",
+    ):
+        result(2, **known).families()
 
 
 def test_whole_turns_that_may_be_added_within_the_limits_are_counted_from_the_fewest_to_the_most():

@@ -297,7 +297,11 @@ def test_what_stands_in_the_way_is_said():
     ):
         closed_form(helical)
     coupled = pk.Chain.from_space([turns, turns], np.eye(4), coupling=[[1.0], [2.0]])
-    with pytest.raises(InputError, match=r"expected one coordinate a joint, the 2 joints of"):
+    with pytest.raises(
+        InputError,
+        match=r"^closed form: expected one coordinate a joint, the 2 joints of 'base' -> 'tool' are "
+        r"coupled to 1 coordinates$",
+    ):
         closed_form(coupled)
 
 

@@ -92,9 +92,11 @@ NOWHERE = np.empty((0, 2))
 
 
 @pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize(("at_once", "sizes"), [(4096, (32, 32, 6)), (35, (32, 3, 32, 3))])
 def test_a_long_batch_is_searched_32_targets_at_a_time_each_with_its_own_number(
-    parallel, monkeypatch
+    parallel, at_once, sizes, monkeypatch
 ):
+    monkeypatch.setattr(module, "_AT_ONCE", at_once)
     asked: list[tuple[Any, ...]] = []
 
     def call(address: Any, T: np.ndarray, starts: Any, *words: Any) -> None:
@@ -109,9 +111,9 @@ def test_a_long_batch_is_searched_32_targets_at_a_time_each_with_its_own_number(
     T = np.tile(np.eye(4), (70, 1, 1))
     values = np.full((70, 2), np.nan)
     found = module.search(search_of(arm(), parallel), T, values, starts, Rule(3, 4, 5, 6, 9))
-    parts = [(32, 0.0, 0), (32, 32.0, 32), (6, 64.0, 64)]
     assert sorted(asked, key=lambda one: one[1]) == [
-        (n, start, list(map(float, range(first, first + n)))) for n, start, first in parts
+        (n, first, list(map(float, range(first, first + n))))
+        for n, first in zip(sizes, np.cumsum([0, *sizes]).tolist(), strict=False)
     ]
     assert len(found) == 70
     assert found.q.rows[:, 0].tolist() == list(range(70))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.model.chain import Chain
-from poekin.solve.ik_all.structure import Family, misfits
+from poekin.solve.ik_all.structure import Family, meeting_point, misfits
 from poekin.testing import strategies
 from tests.solve.ik_all.perturbed import calibrated_ur10e, perturbed, reversed_chain
 
@@ -112,3 +112,12 @@ def test_an_arm_of_seven_joints_and_one_of_two_have_no_family():
     assert family_of(arm(0, "meeting", n=3), 1e-6) == Family("meeting", 0, False)
     two = Chain.from_space(arm(0, "meeting", n=3).screws[:2], np.eye(4))
     assert family_of(two, 1e-6) is None
+
+
+@pytest.mark.parametrize(("away", "height"), [(10.0, 10.0), (1000.0, 0.0)])
+def test_axes_almost_parallel_meet_far_away_unless_they_are_parallel_to_a_thousandth(away, height):
+    places = np.array([[0.1, 0.0, 0.0], [-0.1, 0.0, 0.0], [0.0, 0.1, 0.0]])
+    there = np.array([0.0, 0.0, away])
+    screws = np.array([pk.screw.revolute(there - p, p) for p in places])
+    # by tilts of 1e-2 rounding is 1e-12 m; what is left free stays at the feet, 1e-5 m high
+    np.testing.assert_allclose(meeting_point(screws)[2], height, rtol=0, atol=1e-3)

@@ -239,12 +239,16 @@ def test_values_are_over_the_limits_or_a_turn():
 
 
 @pytest.mark.parametrize(("options", "error", "words"), [
-    ({}, InputError, r"up to six coordinates, got 7 \('panda_joint1', .*`lock` keeps .* `n_swivel=64` gives"),
+    ({}, InputError,
+     r"^ik_all: expected an arm of up to six coordinates, got 7 \('panda_joint1', .*, 'panda_joint7'\): it has "
+     r"infinitely many solutions; ik finds one of your choice; here `lock` keeps coordinates at given values, and "
+     r"`n_swivel=64` gives one of seven 64 values$"),
     ({"lock": {"joint7": 0.1}}, UnknownName, r"lock: no coordinate 'joint7'"),
     ({"lock": {"panda_joint7": 9}}, InputError, r"lock: 'panda_joint7': expected a number within"),
     ({"lock": ["panda_joint7"]}, InputError, r"lock: expected a dict of names and values"),
     ({"lock": dict.fromkeys(PANDA.q_names, -1e-2)}, InputError, r"lock: 'panda_joint4': expected a number within"),
-    ({"lock": dict(zip(PANDA.q_names, Q, strict=True))}, InputError, r"all of them are locked"),
+    ({"lock": dict(zip(PANDA.q_names, Q, strict=True))}, InputError,
+     r"^ik_all: expected an arm of one to six coordinates, all of them are locked$"),
     ({"n_swivel": 0}, InputError, r"n_swivel: expected a whole number from 1 on, got 0"),
     ({"n_swivel": 8, "lock": {"panda_joint7": 0.1}}, InputError, r"n_swivel: expected an arm with seven .* got 6"),
     ({"redundant": "joint3"}, UnknownName, r"redundant: no coordinate 'joint3'"),

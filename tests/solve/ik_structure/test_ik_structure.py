@@ -207,7 +207,10 @@ def test_seven_joints_are_told_what_each_locked_one_gives():
         "'panda_joint7' locked: spherical shoulder (axes 1, 2 and 3), solved reversed"
     )
     iiwa = pk.ik_structure(pk.load("iiwa14").chain())
-    assert iiwa.hint.startswith("S-R-S, shoulder and wrist are spherical: closed form with")
+    assert iiwa.hint == (
+        "S-R-S, shoulder and wrist are spherical: closed form with 'joint7' locked, or with the "
+        "arm angle given"
+    )
     # whichever joint is locked, the shoulder or the wrist stays; but with a stiff elbow the two
     # centres keep their distance
     kinds = [one.kind for one in iiwa.locked]
@@ -221,13 +224,26 @@ def test_eight_coordinates_fewer_coordinates_than_joints_and_a_lower_rank_are_sa
     assert pk.ik_structure(eight).hint == "lock 2 joints of 8"
     six = arm(3, "meeting")
     planar = [pk.screw.revolute([0, 0, 1], [k, k * k, 0]) for k in range(4)]
-    assert pk.ik_structure(Chain.from_space(planar, np.eye(4))).kind == "singular everywhere"
+    lower = pk.ik_structure(Chain.from_space(planar, np.eye(4)))
+    assert lower.kind == "singular everywhere"
+    assert lower.hint == (
+        "the Jacobian has lower rank than the arm has coordinates at every q: a pose that is "
+        "reached is reached in infinitely many ways"
+    )
     geared = six.replace(coupling=np.diag([2.0, 1, 1, 1e-20, 1, -3]), q_names=None)
     assert pk.ik_structure(geared).kind == "spherical wrist"
+    both = np.eye(6)
+    both[:2, :2] = [[1.0, -0.5], [-0.5, 1.0]]
+    differential = six.replace(coupling=both, q_names=list("abcdef"), limits=None)
+    assert pk.ik_structure(differential).kind == "spherical wrist"
     follows = np.eye(6)[:, :5]
     follows[5, 4] = 1.0
     mimic = six.replace(coupling=follows, q_names=None, limits=None, velocity_limits=None)
-    assert pk.ik_structure(mimic).kind == "coupled joints"
+    coupled = pk.ik_structure(mimic)
+    assert coupled.kind == "coupled joints"
+    assert coupled.hint == (
+        "joints follow others: there are fewer coordinates than joints, and no closed form is known"
+    )
 
 
 def test_a_compiled_chain_is_taken_and_json_leaves_the_chain_out():
@@ -242,5 +258,7 @@ def test_a_compiled_chain_is_taken_and_json_leaves_the_chain_out():
 def test_what_is_no_chain_or_has_no_joints_is_refused():
     with pytest.raises(InputError, match="expected a Chain"):
         pk.ik_structure(pk.load("ur5e"))  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="expected an arm with joints"):
+    with pytest.raises(
+        InputError, match=r"^ik_structure: expected an arm with joints, the chain has none$"
+    ):
         pk.ik_structure(Chain.from_space([], np.eye(4)))

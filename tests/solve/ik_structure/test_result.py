@@ -55,6 +55,33 @@ def test_a_locked_joint_whose_axes_nearly_fit_is_called_so():
     assert str(none) == "'joint1' locked: general"
 
 
+def test_what_an_arm_of_fewer_joints_is_solved_as_is_said():
+    found = IKStructure("spherical wrist", "closed form", (2, 3, 4), fictitious=2)
+    assert str(found).split("\n") == [
+        "spherical wrist: axes 2, 3 and 4",
+        "closed form",
+        "overdetermined: solved as an arm of six joints, 2 of them fictitious and held at zero",
+    ]
+
+
+def test_of_an_arm_without_relations_nothing_else_is_said():
+    assert IKStructure("general").to_dict() == {
+        "kind": "general",
+        "method": "search",
+        "joints": [],
+        "reversed": False,
+        "exact": True,
+        "first_joints": "",
+        "prismatic": [],
+        "fictitious": 0,
+        "assumptions": [],
+        "position_bound": 0.0,
+        "rotation_bound": 0.0,
+        "locked": [],
+        "hint": "",
+    }
+
+
 def test_json_is_the_dict():
     found = IKStructure("general")
     assert found.to_json() == json.dumps(found.to_dict(), indent=2)

@@ -85,6 +85,32 @@ def test_a_step_is_divided_into_8_64_and_512_pieces_of_the_screw_motion():
     assert len(asked) == 5
 
 
+def test_an_arm_with_few_coordinates_goes_beside_all_pieces_but_the_last(monkeypatch):
+    f, T_b = one(), ARM.fk(Q + 0.5)
+    monkeypatch.setattr(f.problem, "underactuated", True)
+    beside: list[np.ndarray] = []
+    asked: list[tuple[int, float]] = []
+
+    def towards(target: np.ndarray, q: np.ndarray) -> np.ndarray:
+        beside.append(target)
+        return q + 1.0
+
+    def descend(targets: np.ndarray, start: np.ndarray, q: np.ndarray) -> int:
+        np.testing.assert_array_equal(targets, T_b[None])
+        asked.append((len(beside), float(start[0] - Q[0])))
+        q[:] = 7.0
+        return len(beside) > 70
+
+    f._towards, f._descend = towards, descend  # type: ignore[method-assign]
+    found = f._in_pieces(Q, f.targets[0], T_b)
+    assert found is not None
+    assert found.tolist() == [7, 7, 7]
+    # 7 of 8 pieces, then 63 of 64, then 511 of 512: each time from the start on
+    assert asked == [(7, 7.0), (70, 63.0), (581, 511.0)]
+    way = motion.screw(f.targets[0], T_b, np.arange(1, 8) / 8)
+    np.testing.assert_array_equal(beside[:7], way)
+
+
 def test_the_first_piece_is_no_longer_than_another():
     f = one(most=0.05)
     assert f._in_pieces(Q + np.array([0.2, -0.1, 0]), f.targets[0], f.targets[0]) is None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -32,9 +34,14 @@ def test_without_times_there_are_no_rates():
     assert not path.branch_switches
 
 
-@pytest.mark.parametrize("q", [np.zeros(7), np.zeros((0, 7)), np.zeros((2, 5))])
-def test_what_is_no_list_of_configurations_is_refused(q):
-    with pytest.raises(ShapeError, match="7"):
+@pytest.mark.parametrize(("q", "words"), [
+    (np.zeros(7), "q: expected configurations (N, 7), got shape (7,)"),
+    (np.zeros((0, 7)), "q: expected configurations (N, 7), got shape (0, 7)"),
+    (np.zeros((1, 2, 7)), "q: expected configurations (N, 7), got shape (1, 2, 7)"),
+    (np.zeros((2, 5)), "q: expected 7 coordinates"),
+])  # fmt: skip
+def test_what_is_no_list_of_configurations_is_refused(q, words):
+    with pytest.raises(ShapeError, match=re.escape(words)):
         joint_path(ARM, q)
 
 
@@ -59,6 +66,8 @@ def test_a_row_that_is_no_configuration_is_a_pose_that_is_not_reached():
 
 @pytest.mark.parametrize("times", [[0, 2, 1], [0, np.nan, 1], [0, 1, np.inf]])
 def test_times_that_run_backwards_or_are_not_finite_are_refused(times):
-    with pytest.raises(InputError, match="times: expected finite seconds"):
+    with pytest.raises(
+        InputError, match=r"^times: expected finite seconds, none before the one above it$"
+    ):
         joint_path(ARM, np.zeros((3, 7)), np.array(times))
     assert len(joint_path(ARM, np.zeros((3, 7)), np.array([0.0, 1.0, 1.0])).q) == 3

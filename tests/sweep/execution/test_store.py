@@ -141,7 +141,7 @@ def test_on_a_full_disk_parts_that_were_done_stay(tmp_path, monkeypatch):
     saved = np.savez_compressed
     monkeypatch.setattr(np, "savez_compressed", full)
     with pytest.raises(FileError, match=r"part-00000002\.npz: No space left"):
-        run(SWEEP, chunk=1000, store=tmp_path)
+        run(SWEEP, chunk=1000, store=tmp_path, workers=1)
     assert sorted(file.name for file in tmp_path.glob("part*")) == [
         "part-00000000.npz",
         "part-00000001.npz",

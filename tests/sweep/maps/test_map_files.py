@@ -12,6 +12,7 @@ import pytest
 
 from poekin.errors import FileError, InputError, MissingExtra
 from poekin.sweep import Cells, Grid, Random, Sweep, load_map, run
+from poekin.sweep.samples import Samples
 from poekin.sweep.tile_centres import tile_centres
 from tests.sweep.arms import bits, two_links
 
@@ -35,6 +36,7 @@ def test_a_file_gives_the_map_back(tmp_path, found, name):
     assert read.counts.tobytes() == found.counts.tobytes()
     assert read.cells == found.cells
     numbers = np.arange(10)
+    assert isinstance(read.samples, Samples)
     np.testing.assert_array_equal(
         read.samples.configurations(numbers), found.samples.configurations(numbers)
     )

@@ -7,7 +7,11 @@ import pytest
 
 import poekin as pk
 from poekin.errors import InputError
+from poekin.sweep import PoseSamples, reach
+from tests.messages import says
 from tests.sweep.arms import measured, two_links
+
+UR5E = pk.load("ur5e").chain(tip="tool0")
 
 
 def test_two_links_reach_their_annulus_to_a_cube():
@@ -77,3 +81,41 @@ def test_what_cannot_be_used_is_refused(options, words):
 def test_what_is_no_arm_is_refused():
     with pytest.raises(InputError, match="expected a Chain"):
         pk.sweep.reach("ur5e")  # type: ignore[arg-type]
+
+
+def test_poses_are_drawn_in_the_cells_around_what_an_arm_reaches():
+    options = {"resolution": 0.3, "by": "poses", "measure": "solutions", "seed": 5}
+    found = reach(UR5E, samples=3000, **options)
+    again = PoseSamples.random(found.cells.corner, found.cells.upper, 3000, 5)
+    assert found.about["samples"] == again.describe()
+    assert found.cells == reach(UR5E, samples=100_000, resolution=0.3).cells
+    reached = np.count_nonzero(pk.ik_all(UR5E, again.poses(np.arange(3000))).counts)
+    assert (found.counts.sum(), found.outside, found.masked) == (reached, 0, 3000 - reached)
+    cubes = found.reached_volume
+    whole = found.cells.count * 0.3**3
+    assert found.summary().split("\n") == [
+        f"3000 poses, {reached} of them reached ({reached / 30:.3g} %), 0 of these outside the map",
+        f"{cubes:.4g} m³ of {whole:.4g} m³ reached, in cubes of 300 mm",
+        "best number of IK solutions of a cell: 2 to 8",
+    ]
+
+
+def test_middles_of_cells_are_tried_with_each_turn():
+    found = reach(UR5E, resolution=0.4, by="middles", turns=3, side=1)
+    T = found.cells.poses(3)
+    counts = pk.ik_all(UR5E, T).counts
+    np.testing.assert_array_equal(found.counts, (counts > 0).sum(axis=-1))
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"by": "joints"}, "by: expected 'configurations', 'poses' or 'middles', got 'joints'"),
+        ({"by": "poses", "turns": 2}, "turns: expected 1 unless by is 'middles', got 2"),
+        ({"by": "middles", "turns": 0}, "turns: expected a whole number from 1 on, got 0"),
+    ],
+)
+def test_samples_that_there_are_not_are_refused(options, words):
+    with pytest.raises(InputError) as caught:
+        reach(UR5E, resolution=0.5, **options)
+    assert says(caught.value, words)

@@ -17,12 +17,13 @@ from tests.sweep.arms import measured, two_links
 
 ARM = two_links()
 CELLS = Cells.box([-1] * 3, [1] * 3, 0.1, side=1)
-MEASURED = run(Sweep(ARM, Random.of(ARM, 5000, seed=1), CELLS, "manipulability"))
+SAMPLES = Random.of(ARM, 5000, seed=1)
+MEASURED = run(Sweep(ARM, SAMPLES, CELLS, "manipulability"))
 COUNTED = run(Sweep(ARM, Grid.of(ARM, 50), Cells.box([-1] * 3, [1] * 3, 0.1)))
 
 
 def test_a_pose_that_was_sampled_is_found_and_one_out_of_reach_not():
-    q = MEASURED.samples.configurations([17])[0]
+    q = SAMPLES.configurations([17])[0]
     assert MEASURED.query(ARM.fk(q)) >= 1
     far = np.eye(4)
     far[0, 3] = 0.95
@@ -117,3 +118,10 @@ def test_of_other_than_cells_there_is_no_map():
 )
 def test_a_map_is_frozen_and_equal_only_where_its_parts_can_be(kind):
     assert frozen_and_equal_only_where_its_parts_can_be(kind)
+
+
+def test_samples_that_are_in_no_cell_and_not_outside_were_left_out_by_the_mask():
+    inside = int(COUNTED.counts.sum())
+    for outside in (0, 1, 3):
+        left = replace(COUNTED, outside=outside).masked
+        assert left == COUNTED.samples.count - inside - outside

@@ -10,7 +10,11 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError
 from poekin.sweep import PoseUncertainty, monte_carlo
-from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
+from tests.findings import (
+    dataclasses_of,
+    defaults_are_those_of_the_docstring,
+    frozen_and_equal_only_where_its_parts_can_be,
+)
 from tests.sweep.arms import slide, two_links
 from tests.sweep.measures.first_order import effects
 
@@ -103,3 +107,27 @@ def test_what_cannot_be_drawn_is_refused(options, words):
 )
 def test_an_error_is_frozen_and_equal_only_where_its_parts_can_be(kind):
     assert frozen_and_equal_only_where_its_parts_can_be(kind)
+
+
+def test_arms_are_drawn_in_pairs_10000_at_a_time_and_10000_where_nobody_says_how_many(monkeypatch):
+    asked = []
+
+    def errors(chain, q, moves):
+        asked.append(len(moves))
+        return np.tile([1.0, 2.0, 2.0, 3.0, 4.0, 0.0], (len(moves), 1))
+
+    chain = slide()
+    error = PoseUncertainty.by_tolerances(chain, tilt=1e-3)
+    assert defaults_are_those_of_the_docstring(monte_carlo)
+    assert monte_carlo(chain, np.empty((0, 2)), error).draws == 10_000
+    monkeypatch.setattr("poekin.sweep.measures.monte_carlo._errors", errors)
+    found = monte_carlo(chain, [0.1, 0.3], error, draws=20_003)
+    assert asked == [20_000, 4]
+    assert found.draws == 20_004
+    # what is always the same is a bias and has no deviation
+    assert found.orientation_bias.tolist() == [1.0, 2.0, 2.0]
+    assert found.position_bias.tolist() == [3.0, 4.0, 0.0]
+    assert (found.position, found.orientation) == (0.0, 0.0)
+    assert found.summary() == (
+        "20004 arms, standard deviations: position 0 mm, bias 5e+03 mm; orientation 0 mrad, bias 3e+03 mrad"
+    )

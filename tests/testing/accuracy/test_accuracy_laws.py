@@ -59,6 +59,8 @@ def test_of_the_smallest_rotations_the_logarithm_is_some_rotation_and_finite(k, 
             keeps("log_is_attained", Group(size, log=lambda X, w=found: w), element(tiny, size))
             == wanted
         )
+    # of a rotation so small only this is asked
+    assert LAWS["log_is_attained"](Group(size, log=lambda X: right), element(tiny, size)) == 0
     nothing = np.zeros(size)
     nothing[3:] = 1.0
     assert not keeps("log_is_attained", Group(size, log=lambda X: nothing), element(tiny, size))

@@ -146,6 +146,11 @@ def test_a_urdf_that_pinocchio_refuses_is_an_error():
         PinocchioOracle("<robot")
 
 
+def test_slips_of_a_text_are_not_told_a_second_time(recwarn):
+    PinocchioOracle('\n<?xml version="0.0"?>' + URDF)
+    assert not recwarn.list
+
+
 def test_why_pinocchio_refuses_is_in_the_message_and_nowhere_else(capfd):
     with pytest.raises(
         ModelError,

@@ -85,6 +85,10 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
         lambda: C.screws(()),
         "expected some of revolute, prismatic, helical, got ()",
     ),
+    "a number for kinds of joints": (
+        lambda: C.screws(5),  # type: ignore[arg-type]
+        "expected some of revolute, prismatic, helical, got 5",
+    ),
     "a negative number": (
         lambda: C.chains(-1, 3),
         "0 <= min_joints <= max_joints, got min_joints = -1",

@@ -4,6 +4,8 @@ there.
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -43,3 +45,13 @@ def test_an_oddity_is_there_and_changes_nothing_of_the_robot(oddity):
 def test_what_there_is_not_is_refused():
     with pytest.raises(InputError, match=r"oddities: there is no 'two axes'"):
         odd_urdfs("two axes")
+
+
+def test_axes_off_unit_length_are_longer_by_half_a_millionth():
+    lengths = set()
+    for text, _, _ in drawn(odd_urdfs("axes off unit length"), 12):
+        axes = re.findall(r'<axis xyz="([^"]*)"', text)
+        lengths |= {
+            round(float(np.linalg.norm([float(x) for x in axis.split()])), 9) for axis in axes
+        }
+    assert lengths == {1.0000005}

@@ -141,7 +141,9 @@ def test_a_slider_moves_its_joint_by_the_keyboard_and_its_box_by_typing(arm):
 
 
 def test_a_slider_is_moved_by_the_pointer(arm):
-    box = arm.tab.get_by_role("slider", name="shoulder").bounding_box()
+    slider = arm.tab.get_by_role("slider", name="shoulder")
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
     y = box["y"] + box["height"] / 2
     arm.tab.mouse.move(box["x"] + 0.6 * box["width"], y)
     arm.tab.mouse.down()

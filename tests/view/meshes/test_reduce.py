@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from poekin.view.meshes import reduce
 from poekin.view.meshes.reduce import limit_for, reduced
 
 
@@ -74,3 +75,30 @@ def test_the_grid_is_found_in_the_steps_that_were_looked_at():
     found = [reduced(*torus(80), limit) for limit in (6000, 1000, 200)]
     diagonals = [diagonal for _, _, diagonal in found]
     np.testing.assert_allclose(diagonals, [0.103014, 0.311232, 0.700034], rtol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("counts", "budget", "limit"),
+    [([], 5, 0), ([3], 3, 3), ([3], 2, 2), ([2, 10], 5, 3), ([10, 2], 5, 3), ([4, 4, 9], 11, 3)],
+)
+def test_what_small_meshes_leave_is_shared_by_the_others(counts, budget, limit):
+    assert limit_for(counts, budget) == limit
+
+
+def test_as_many_triangles_as_the_limit_are_enough():
+    """Vertices that are far apart in a grid of a thousand cells; a triangle that is there twice is
+    left out by it.
+    """
+    vertices, faces = torus(20)
+    _, kept, diagonal = reduced(
+        np.vstack([vertices, vertices[:1]]), np.vstack([faces, faces[:1]]), 800
+    )
+    assert len(kept) == 800
+    assert diagonal == pytest.approx(2.6 / 1000 * 3**0.5, rel=1e-6)
+
+
+def test_the_number_of_a_cell_is_that_of_its_digits_to_the_base_of_two_million():
+    most = 2**21 - 1
+    rows = np.array([[0, 0, 0], [1, 2, 3], [most, 0, most], [0, most, most], [most, most, most]])
+    wanted = [(i * 2**21 + j) * 2**21 + k for i, j, k in rows.tolist()]
+    assert reduce._number(rows).tolist() == wanted

@@ -29,6 +29,7 @@ from poekin.view.scenes.arm_parts.axes import (
 )
 from poekin.view.scenes.arm_parts.geometry import ArmGeometry, opening_q
 from poekin.view.scenes.arm_parts.missing import left_out_words
+from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.arm_parts.of_robot import robot_geometry
 from poekin.view.scenes.arm_parts.skeleton import glyph_radii
 from tests.model.laws.chain_bounds import budget
@@ -518,12 +519,27 @@ def test_the_glyph_of_a_slide_is_as_wide_as_its_way():
     joints = [
         pk.Joint("turn", "revolute", "base", "post"),
         pk.Joint(
-            "slide", "prismatic", "post", "cart", pk.se3.exp([0, 0, 0, 1, 0, 0]), limits=(0.0, 0.04)
+            "slide",
+            "prismatic",
+            "post",
+            "cart",
+            pk.se3.exp([0, 0, 0, 1, 0, 0]),
+            limits=(-0.01, 0.03),
         ),
         pk.Joint("tilt", "revolute", "cart", "arm", pk.se3.exp([0, 0, 0, 0, 1, 0])),
     ]
     arm = arm_geometry(pk.Robot("cart", ["base", "post", "cart", "arm"], joints), ())
     assert glyph_radii(arm, np.zeros(2 + 1), 1.5)[1] == 0.02
+
+
+@pytest.mark.parametrize("size", (0.1, 2.0))
+def test_of_joints_that_stand_close_together_the_glyphs_are_a_share_of_the_arm(size):
+    """The same picture of an arm of any size: 0.006 of it, where the room is less."""
+    places = [[0, 0, 0], [0.011 * size, 0, 0], [0.5 * size, 0, 0], [size, 0, 0]]
+    screws = [pk.screw.revolute([0, 0, 1], place) for place in places]
+    chain = pk.Chain.from_space(screws, pk.se3.pose(np.eye(3), [size, 0, 0]))
+    radii = glyph_radii(chain_geometry(chain), np.zeros(4), size)
+    assert radii[:2] == pytest.approx([0.006 * size] * 2)
 
 
 @pytest.mark.parametrize(("length", "bones"), [(1e-4, 1), (1e-2, 2)])

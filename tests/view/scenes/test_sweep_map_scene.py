@@ -42,6 +42,7 @@ def test_a_point_in_each_cube_has_the_value_that_the_words_say(measure, side, wo
     else:
         every = found.capability if side else found.counts
     np.testing.assert_array_equal(node.values, every[found.reached])
+    assert node.size == pytest.approx(0.2 * 0.2, rel=1e-15)  # a fifth of a cube's side
     assert node.attachment.name == f"cubes that tool0 reaches, by {words}"
     assert scene.title == "What tool0 reaches"
     assert list(scene.words[: len(found.summary().split("\n"))]) == found.summary().split("\n")

@@ -25,14 +25,13 @@ class Rows:
     def joined(self, *others: Self) -> Self:
         """These rows and those of others behind them."""
         records = [vars(record).values() for record in (self, *others)]
-        fields = zip(*records, strict=True)
-        return type(self)(*map(_joined, fields))
+        return type(self)(*map(_joined, *records))
 
 
-def _joined(parts: tuple[Any, ...]) -> Any:
-    if isinstance(parts[0], Rows):
-        return parts[0].joined(*parts[1:])
-    return np.concatenate(parts)
+def _joined(first: Any, *others: Any) -> Any:
+    if isinstance(first, Rows):
+        return first.joined(*others)
+    return np.concatenate([first, *others])
 
 
 @dataclass(frozen=True, eq=False)

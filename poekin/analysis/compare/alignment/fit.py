@@ -91,7 +91,7 @@ def _step(r: Array, J: Array, damping: Array) -> Array:
     triangular = np.asarray(np.linalg.qr(system, mode="r"))
     R = triangular[:, :columns]
     steps = np.linalg.solve(R[..., :-1], R[..., -1:])
-    return steps[..., 0]
+    return steps.squeeze(-1)
 
 
 def _linearised(

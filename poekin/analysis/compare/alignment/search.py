@@ -178,12 +178,10 @@ def _links(pair: Sides, rigid: Alignments) -> list[Hypothesis]:
         if not len(before) or not len(behind):
             continue
         (reading,) = make_hypotheses(pair, before[:1])
-        if reading.implicated.sum() < 2:
-            continue
-        tool = tool_behind(pair, behind.P[0])
-        frames = int(frames_moved(pair, reading.base, tool))
-        reading = replace(reading, tool=tool, frames=frames, link=k)
-        found.append(reading)
+        if reading.implicated.sum() > 1:
+            tool = tool_behind(pair, behind.P[0])
+            frames = int(frames_moved(pair, reading.base, tool))
+            found.append(replace(reading, tool=tool, frames=frames, link=k))
     return found
 
 

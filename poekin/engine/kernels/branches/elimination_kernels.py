@@ -118,7 +118,7 @@ def fill(arm, target, rows, scratch, is_first):
             unsure = False
     for k in range(max(count, 0), rows.shape[0]):
         rows[k, 6] = -1.0
-    return count, unsure or count < 0 or count % 2 != 0
+    return count, unsure or count % 2 != 0
 
 
 def _pass(arm, one, view, scratch, rows, count):

@@ -91,9 +91,9 @@ def loop(arm, G, axes):
             _store(axes[k], h, o)
     z = _direction(axes, 1)
     x = across(z)
-    frame = make_pose((*x, *cross(z, x), *z), (0.0, 0.0, 0.0))
-    origin = rotate(frame, point(axes, 1))
-    frame = make_pose(nine(frame), scale(-1.0, origin))
+    rotation = (*x, *cross(z, x), *z)
+    origin = rotate(rotation, point(axes, 1))
+    frame = make_pose(rotation, scale(-1.0, origin))
     for k in range(6):
         h = rotate(frame, _direction(axes, k))
         o = transform(frame, point(axes, k))

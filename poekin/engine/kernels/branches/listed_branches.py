@@ -36,7 +36,6 @@ RULE = 4
 LOW = 0
 HIGH = 1
 PERIOD = 2
-BOX = 3
 # Where in a row of `errors`, after m and rad, it stands in how many places the solution is.
 PLACES = 2
 ERRORS = 3
@@ -135,7 +134,7 @@ def gather(rows, rule, q, owners):
                     q[count, i] = rows[k, b, i]
                 owners[count] = k
                 count += 1
-    last = max(count - 1, 0)
+    last = count - 1  # without any branch a row that nobody reads
     for k in range(count, count + LANES):
         for i in range(m):
             q[k, i] = q[last, i]

@@ -7,6 +7,7 @@ machine code has, and the rows and columns of a matrix, and as numbers:
 - ROOT: the sum of the roots of the outputs; one below 0 by rounding, or NaN, counts as 0
 - SMALLEST, INVERSE_CONDITION: of the singular values of a Jacobian (6, m), and 1 / length
 - TRAVEL, MARGIN: of the coordinates, references (m) and weights (m)
+- SOLUTIONS: of a pose, the number of its solutions
 """
 
 import math
@@ -18,7 +19,7 @@ from ...lanes import rows as lanes
 from ...straight_line.machine_code import LANES
 
 KIND, SIGN, OUTPUTS, ROWS, COLUMNS = range(5)
-NONE, ROOT, SMALLEST, INVERSE_CONDITION, TRAVEL, MARGIN = range(6)
+NONE, ROOT, SMALLEST, INVERSE_CONDITION, TRAVEL, MARGIN, SOLUTIONS = range(7)
 OF_OUTPUTS = (ROOT, SMALLEST, INVERSE_CONDITION)
 OF_COORDINATES = (TRAVEL, MARGIN)
 _ROTATIONAL = 3

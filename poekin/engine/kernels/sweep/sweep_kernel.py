@@ -10,14 +10,13 @@ Blocks begin at multiples of their length wherever a range does, and nothing is 
 sample's numbers do not depend on the range or the processor. Importing this module imports Numba.
 """
 
-import math
-
 import numpy as np
 
 from ...jit.array_io import without_refcount
 from ...jit.kernel import kernel
 from ...straight_line.machine_code import LANES
 from ..arm_kernels import BLOCK, run_columns, sines_of_block, sines_room
+from .keeping import keep, leave_out, write_bins
 from .measures import (
     KIND,
     OF_COORDINATES,
@@ -32,13 +31,7 @@ from .measures import (
 from .root import root
 from .samples import write_samples
 from .self_collision import collides
-from .tiles import OUTSIDE, cell_of
-
-BINS, TOP = -1, -2
-HALF = 32
-FINE = 2.0**40
-"""Units of a sum of measures in 1."""
-_LARGEST = 2.0**62
+from .tiles import cell_of
 
 
 def _write_cells(cells, place, R_p, found):
@@ -122,95 +115,25 @@ def swept(
         if is_spatial:
             _write_cells(cells, place, R_p, found)
         else:
-            _write_bins(cells, place, values, found)
+            write_bins(cells, place, values, found)
         begin = max(first - start, 0)
         end = min(last - start, BLOCK)
         if is_masked:
-            outside -= _leave_out(masked, begin, end, found, values)
-        # in a loop of its own, so that the processor waits for the memory of many cells at once
-        if best.size > 0 and cells[0] != TOP:
-            outside += _keep_best(
-                measure[SIGN], values, found, begin, end, start, counts, best, attained
-            )
-            continue
-        outside += _count(found, begin, end, counts)
-        if cells[0] == TOP:
-            _keep_top(measure[SIGN], values, begin, end, start, best, attained)
-        elif sums.size > 0:
-            _add(values, found, begin, end, sums, attained)
+            outside -= leave_out(masked, begin, end, found, values)
+        outside += keep(
+            cells,
+            measure[SIGN],
+            values,
+            found,
+            begin,
+            end,
+            start,
+            counts,
+            best,
+            attained,
+            sums,
+        )
     return outside
-
-
-def _leave_out(masked, begin, end, found, values):
-    """Puts samples that are masked into no cell, with no measure. Returns how many there are."""
-    count = 0
-    for k in range(begin, end):
-        if masked[k]:
-            found[k] = OUTSIDE
-            values[k] = np.nan
-            count += 1
-    return count
-
-
-def _count(found, begin, end, counts):
-    """Counts samples in their cells. Returns how many lie in none."""
-    outside = 0
-    for k in range(begin, end):
-        if found[k] == OUTSIDE:
-            outside += 1
-        else:
-            counts[found[k]] += 1
-    return outside
-
-
-def _keep_best(sign, values, found, begin, end, start, counts, best, attained):
-    """Counts samples in their cells and keeps the best measure of each, in one pass over the memory.
-    Returns how many lie in none.
-    """
-    outside = 0
-    for k in range(begin, end):
-        cell = found[k]
-        if cell == OUTSIDE:
-            outside += 1
-        else:
-            counts[cell] += 1
-            value = sign * values[k]
-            if value > best[cell]:
-                best[cell] = value
-                attained[cell] = start + k
-    return outside
-
-
-def _keep_top(sign, values, begin, end, start, best, attained):
-    """Inserts in descending order; of equal ones the first sample stays before the others."""
-    for k in range(begin, end):
-        value = sign * values[k]
-        i = len(best) - 1
-        if value > best[i]:
-            while i > 0 and value > best[i - 1]:
-                best[i] = best[i - 1]
-                attained[i] = attained[i - 1]
-                i -= 1
-            best[i] = value
-            attained[i] = start + k
-
-
-def _add(values, found, begin, end, sums, rest):
-    for k in range(begin, end):
-        cell = found[k]
-        if cell != OUTSIDE:
-            units = math.floor(min(max(values[k] * FINE, -_LARGEST), _LARGEST) + 0.5)
-            sums[cell] += units >> HALF
-            rest[cell] += units & (2**HALF - 1)
-
-
-def _write_bins(cells, place, values, found):
-    """Bins of the measures; where cells[0] is TOP, all are in the first."""
-    for k in range(BLOCK):
-        found[k] = 0
-        if cells[0] == BINS:
-            along = (values[k] - place[0]) * place[3]
-            found[k] = int(along) if 0.0 <= along < cells[1] else OUTSIDE
 
 
 @kernel("i1 i1 r2 w2", portable=True)

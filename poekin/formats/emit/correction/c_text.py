@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from ....groups.arrays import Array
 from ..assignments import comment
 from ..c import HEADER, CSource
-from ..messages import identifier
-from ..statements import double
+from ..c_selftest import table_rows
 from .correction import Correction, assignments
 
 ALLOWED = 1e-12
@@ -53,9 +51,9 @@ int main(void)
 """
 
 
-def c_text(correction: Correction, name: str, origin: str) -> CSource:
-    """C99 of a correction in double, of names that begin with `name`."""
-    word = f"{identifier(name)}_true_joints"
+def c_text(correction: Correction, word: str, origin: str) -> CSource:
+    """C99 of a correction in double, of names that begin with `word`."""
+    word = f"{word}_true_joints"
     conditions = "const double *conditions, " if correction.conditions else ""
     head = f"void {word}(const double *q, {conditions}double *q_true)"
     said = comment([
@@ -78,7 +76,7 @@ def _selftest(word: str, correction: Correction) -> str:
     argument = ""
     if correction.conditions:
         width = len(correction.conditions)
-        rows = _rows(correction.given)
+        rows = table_rows(correction.given)
         tables = f"static const double CONDITIONS[VECTORS][{width}] = {{\n{rows}\n}};\n"
         argument = "CONDITIONS[i], "
     return SELFTEST.format(
@@ -86,13 +84,8 @@ def _selftest(word: str, correction: Correction) -> str:
         allowed=ALLOWED,
         count=len(correction.q),
         dof=correction.chain.dof,
-        q=_rows(correction.q),
+        q=table_rows(correction.q),
         tables=tables,
         argument=argument,
-        expected=_rows(correction.expected),
+        expected=table_rows(correction.expected),
     )
-
-
-def _rows(values: Array) -> str:
-    rows = [", ".join(map(double, row)) for row in values.tolist()]
-    return ",\n".join(f"    {{{row}}}" for row in rows)

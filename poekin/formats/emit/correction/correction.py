@@ -7,7 +7,7 @@ from typing import NamedTuple
 from ....engine.straight_line.program import Program
 from ....groups.arrays import Array
 from ....model.chain import Chain
-from ..messages import coordinate_line, made_by, quote_ascii
+from ..messages import coordinate_lines, made_by, quote_ascii
 from ..statements import Statements, double, statements
 
 
@@ -43,7 +43,6 @@ class Correction(NamedTuple):
 
     def lines(self, origin: str) -> list[str]:
         """Lines on what the text computes, and from what."""
-        chain = self.chain
         count = self.program.count
         head = [
             *made_by(origin),
@@ -52,9 +51,8 @@ class Correction(NamedTuple):
             "",
             "q are readings; the calibrated arm is where its kinematics has it at the true joint values.",
             "",
+            *coordinate_lines(self.chain),
         ]
-        for k, name in enumerate(chain.q_names):
-            head.append(coordinate_line(k, name, chain.is_angle(k), chain.limits[k]))
         if self.conditions:
             head += ["", "The conditions, and what they were at the calibration on average:"]
             numbered = enumerate(self.conditions)

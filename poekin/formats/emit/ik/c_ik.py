@@ -7,7 +7,7 @@ import numpy as np
 from ....engine.transpile.c_types import CTable
 from ....engine.transpile.translation_unit import External, TranslationUnit
 from ....engine.transpile.values import Argument, Instance
-from ....errors import InputError, safe_repr
+from ....errors import InputError
 from ....formulas.inverse import confirmed
 from ....groups.arrays import Array
 from ....model.chain import Chain
@@ -15,7 +15,7 @@ from ....model.kinematics.arm import Arm, compiled
 from ....model.sampling import angle_mask
 from ..assignments import comment
 from ..c import HEADER, CFunction, CSource
-from ..messages import coordinate_line, identifier, made_by, make_tasks, quote_ascii
+from ..messages import coordinate_lines, identifier, made_by, make_tasks, quote_ascii
 from ..statements import double
 from .c_ik_selftest import selftest
 from .closed_arm import ClosedArm, closed_arm
@@ -77,15 +77,13 @@ def c_ik(
     >>> list(source.files)
     ['puma_ik.h', 'puma_ik.c', 'puma_ik_selftest.c']
     """
-    if not isinstance(name, str):
-        raise InputError(f"name: expected a text, got {safe_repr(name)}")
+    word = f"{identifier(name)}_ik"
     arm = compiled(chain).chain
     form = closed_arm(arm if near is None else compiled(near).chain)
     if form.columns != arm.dof + 1:
         raise InputError(
             f"near: expected an arm with {arm.dof} coordinates, got one with {form.columns - 1}"
         )
-    word = f"{identifier(name)}_ik"
     head = _head(word, arm, form, origin)
     periods = np.where(angle_mask(arm), 2.0 * np.pi, 0.0)
     outside = confirmed.OUTSIDE if near is None else confirmed.OUTSIDE_NEARBY
@@ -106,10 +104,7 @@ def _head(word: str, chain: Chain, form: ClosedArm, origin: str) -> list[str]:
         f"Base frame {quote_ascii(chain.base)}, tip frame {quote_ascii(chain.tip)}. Units: rad, m.",
         f"In closed form: {form.family}. Each solution is held against the arm's own pose.",
         "",
-        *(
-            coordinate_line(k, name, chain.is_angle(k), chain.limits[k])
-            for k, name in enumerate(chain.q_names)
-        ),
+        *coordinate_lines(chain),
     ]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ....groups.arrays import Array
+from ..c_selftest import table_rows
 from ..statements import double
 from .ik_vectors import TOLERANCE, Targets
 
@@ -92,11 +93,7 @@ def selftest(word: str, periods: Array, wanted: Targets) -> str:
         counts=", ".join(str(len(found)) for found in wanted.solutions),
         total=max(len(q), 1),
         dof=len(periods),
-        T=_rows(wanted.T.reshape(len(wanted.T), 16)),
-        q=_rows(q if len(q) else np.zeros((1, len(periods)))),
+        T=table_rows(wanted.T),
+        q=table_rows(q if len(q) else np.zeros((1, len(periods)))),
         periods=", ".join(map(double, periods.tolist())),
     )
-
-
-def _rows(values: Array) -> str:
-    return ",\n".join("    {" + ", ".join(map(double, row)) + "}" for row in values.tolist())

@@ -7,7 +7,7 @@ from typing import Literal, get_args
 from ....checks import REQUIRED, choice
 from ....engine.kernels.sweep import samples
 from ....engine.straight_line.specialise import measured_program
-from ....errors import InputError, safe_repr
+from ....errors import InputError
 from ....model.kinematics.arm import Arm
 from ....model.kinematics.compiled import CompiledChain
 from ....model.kinematics.pose_jacobian import AnyFrame
@@ -92,12 +92,10 @@ def cuda(
     """
     choice(precision, get_args(Precision), "precision")
     choice(measure, get_args(Measure), "measure")
-    if not isinstance(name, str):
-        raise InputError(f"name: expected a text, got {safe_repr(name)}")
+    word = identifier(name)
     arm = compile_checked(chain, frame)
     if not arm.dof:
         raise InputError(f"emit: expected an arm with a coordinate, {arm.chain!r} has none")
-    word = identifier(name)
     real = _REALS[precision]
     code = device_code(word, real, arm.dof)
     tasks = list(make_tasks(arm, frame))

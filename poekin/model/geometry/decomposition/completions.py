@@ -47,14 +47,14 @@ def completions(
     n = len(joints)
     room = 6 - n
     for made_of in (3, 2, 1):
-        if 3 - made_of <= room <= 6 - made_of:
+        if 3 - made_of <= room:
             for i in reversed(range(n - made_of + 1)):
                 yield from _wrists(joints, i, made_of, reach, tolerance)
                 yield from _parallels(joints, i, made_of, reach, tolerance)
     if n <= 3:
         place = _generic_point(joints, reach, _PLACES[0])
         wrist = [_turns(e, place) for e in np.array(_ASKEW)]
-        yield from _filled([*joints, *wrist], n, WRIST, "a point of the tip")
+        yield from _filled([*joints, *wrist], n, "a point of the tip")
 
 
 def _wrists(
@@ -79,7 +79,7 @@ def _wrists(
             u = across(h)
             wrist = [own, _turns(u, place), _turns(np.cross(h, u), place)]
             words = f"a point of axis {i + 1}"
-            yield from _filled([*before, *wrist, *behind], i, WRIST, words)
+            yield from _filled([*before, *wrist, *behind], i, words)
         return
     place = meeting_point(group, tolerance)
     if place is None:
@@ -92,7 +92,7 @@ def _wrists(
         wrist.insert(1, _turns(normal / norm(normal), place))
     else:
         words = f"spherical wrist: {words}"
-    yield from _filled([*before, *wrist, *behind], i, WRIST, words)
+    yield from _filled([*before, *wrist, *behind], i, words)
 
 
 def _parallels(
@@ -133,7 +133,6 @@ def _parallels(
 def _filled(
     six: list[LoopJoint],
     first: int,
-    family: int,
     words: str,
 ) -> Iterator[Completion]:
     """Completions of joints with a wrist to six, by prismatic joints at the end."""
@@ -146,7 +145,7 @@ def _filled(
     for chosen in combinations(directions, short):
         place = six[-1].point
         added = [LoopJoint(d, place, True) for d in chosen]
-        yield Completion([*six, *added], first, family, words)
+        yield Completion([*six, *added], first, WRIST, words)
 
 
 def _turns(direction: Array, point: Array) -> LoopJoint:

@@ -9,7 +9,6 @@ import numpy as np
 from ....engine.kernels.branches import closed_arm
 from ....groups.arrays import Array
 from ...chain import Chain
-from ...chain_data import ChainData
 from ..other_frames import without_offset
 from .arm_array import arm_array
 from .completions import completions
@@ -37,7 +36,7 @@ def sharp_arm(chain: Chain) -> SharpArm | None:
     the first completion that is sharp, else the sharpest one; None where there is none.
     """
     tolerance = Tolerance(ROUNDING, ROUNDING * chain.reach)
-    home = _home(chain)
+    home = without_offset(chain).home
     q, T = _known(chain)
     best = None
     least = _FOUND
@@ -64,16 +63,11 @@ def branch_rows(arm: Array, dof: int, T: Array) -> Array:
     return rows
 
 
-def _home(chain: ChainData) -> Array:
-    """Pose of the tip where all joints are at zero."""
-    return without_offset(chain).home
-
-
 def _known(chain: Chain) -> tuple[Array, Array]:
     """Configurations and their poses, the same ones every time."""
     rng = np.random.default_rng(0)
     q = rng.uniform(-np.pi, np.pi, (_ASKED, chain.dof))
-    slides = np.array([kind == "prismatic" for kind in chain.kinds])
+    slides = np.array(chain.kinds) == "prismatic"
     q[:, slides] *= chain.reach / (2 * np.pi)
     return q, chain.fk(q)
 

@@ -11,6 +11,7 @@ from ....groups import so3
 from ....groups.arrays import Array
 from ....groups.vectors import norm, translation_part
 from ....model.chain import Chain
+from ....results import brief
 from ..diagnostics.identification import identification_matrix, row_space
 from ..fit.fitting import Fit, fit_parameters
 from ..fit.minimise import FitOptions
@@ -57,6 +58,22 @@ class AxisFit(NamedTuple):
     tilt: float
     shift: float
     rms: float
+
+    def summary(self) -> str:
+        """Standard deviations and residual in words, in mrad and mm.
+
+        Returns
+        -------
+        text : str
+            One sentence.
+        """
+        known = f"direction ± {1e3 * self.tilt:.2g} mrad"
+        if self.radius:
+            known += f", place ± {1e3 * self.shift:.2g} mm"
+        return f"{known}; residual {1e3 * self.rms:.2g} mm rms"
+
+    def __repr__(self) -> str:
+        return brief(self, f"joint {self.joint}, {self.summary()}")
 
 
 def fit_axis(sweep: JointSweep) -> AxisFit:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,16 +10,14 @@ import numpy as np
 from ....errors import InputError, safe_repr
 from ....groups import se3
 from ....groups.arrays import Array
-from ....groups.vectors import norm, translation_part
 from ....model.chain import Chain
 from ....model.provenance import warn
 from ..fit.initial_guess import mean_pose
+from .agreement import apart, home_changes
 from .axis_fit import AxisFit, fit_axis
 from .from_circles_result import FromCircles
 from .joint_sweep import JointSweep
 from .rough_axis import carried_back
-
-_TIMES = 5.0  # standard deviations by which the points of two sweeps may be apart
 
 
 def from_circles(
@@ -92,11 +90,14 @@ def from_circles(
         base="device",
     )
     homes = []
+    changes = []
     for sweep in ordered:
         back = se3.inverse(bare.fk(sweep.q))
-        homes.append(carried_back(sweep, back))
+        home = carried_back(sweep, back)
+        homes.append(home)
+        changes.append(home_changes(bare, sweep, back, home))
     chain = bare.replace(home=mean_pose(np.array(homes)))
-    warnings = tuple(_apart(fits, ordered, homes))
+    warnings = tuple(apart(fits, homes, changes, covariance))
     for words in warnings:
         warn(words)
     return FromCircles(chain, covariance, tuple(fits), warnings)
@@ -148,27 +149,3 @@ def at_zero(fits: Sequence[AxisFit], held: Array) -> tuple[Array, Array]:
     G = G.reshape(6 * n, 6 * n)
     C = C.reshape(6 * n, 6 * n)
     return screws, G @ C @ G.T
-
-
-def _apart(
-    fits: Sequence[AxisFit],
-    sweeps: Sequence[JointSweep],
-    homes: Sequence[Array],
-) -> Iterator[str]:
-    """Sweeps whose point is elsewhere than that of most, by more than the axes are uncertain."""
-    places = translation_part(np.array(homes))
-    middle = np.median(places, axis=0)
-    positions = np.concatenate([sweep.positions for sweep in sweeps])
-    lever = norm(np.ptp(positions, axis=0))
-    # the triangle inequality, whatever the signs
-    known = max(fit.rms for fit in fits)
-    for fit in fits:
-        known += fit.shift + fit.tilt * lever
-    for fit, place in zip(fits, places, strict=True):
-        off = norm(place - middle)
-        if off > _TIMES * known:
-            yield (
-                f"sweep of joint {fit.joint}: its point is {1e3 * off:.3g} mm from that of the "
-                "others: another point of the tool, or readings with errors of their own (gain, "
-                "gears, coupled joints)"
-            )

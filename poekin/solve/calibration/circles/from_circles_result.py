@@ -38,8 +38,5 @@ class FromCircles(Result):
         """Axes and how well they are known, as text, in mrad and mm."""
         lines = [f"{len(self.axes)} axes from sweeps of one joint each"]
         for name, axis in zip(self.chain.joint_names, self.axes, strict=True):
-            known = f"direction ± {1e3 * axis.tilt:.2g} mrad"
-            if axis.radius:
-                known += f", place ± {1e3 * axis.shift:.2g} mm"
-            lines.append(f"{name}: {known}; residual {1e3 * axis.rms:.2g} mm rms")
+            lines.append(f"{name}: {axis.summary()}")
         return "\n".join([*lines, *self.warnings])

@@ -12,6 +12,7 @@ from ....errors import InputError, ShapeError
 from ....groups.arrays import Array
 from ....groups.vectors import translation_part
 from ....model.checks import finite, read_only
+from ....results import brief
 from ..measurements.measurement import Measurement, pose_rows
 from ..measurements.points import Points
 from ..measurements.poses import Poses
@@ -108,6 +109,12 @@ class JointSweep:
                 f"{what}: joint {j} moved, too, by {spans[j]:.3g} (rad or m); expected all others "
                 f"to stand within {HELD:g}"
             )
+
+    def __repr__(self) -> str:
+        what = "poses" if self.has_poses else "points"
+        span = float(np.ptp(self.readings))
+        unit = "m" if self.kind == "prismatic" else "rad"
+        return brief(self, f"joint {self.joint}, {len(self.q)} {what} over {span:.3g} {unit}")
 
     @property
     def readings(self) -> Array:

@@ -79,7 +79,7 @@ def _circle(sweep: JointSweep, what: str) -> Array:
     solution = least_squares(design, p)
     misses = p - design @ solution
     _check_seen(p, misses, what)
-    freedom = max(misses.size - solution.size, 1)
+    freedom = misses.size - solution.size
     sigma = norm(misses) / freedom**0.5
     # along the chord the readings show the radius however short the arc
     slope = least_squares(x[:, None], p - p.mean(axis=0))

@@ -41,7 +41,7 @@ class DesignMetrics(NamedTuple):
     prediction: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Choice(Result):
     """Configurations to measure at, and by how much they beat random choices.
 

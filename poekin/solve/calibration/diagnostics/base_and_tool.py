@@ -7,9 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....errors import InputError
-from ....groups import se3
+from ....errors import InputError, escape_unprintable
+from ....groups import se3, so3
 from ....groups.arrays import Array
+from ....groups.vectors import norm, rotation_part, translation_part
+from ....results import brief
 from ..fit import initial_guess
 from ..measurements.points import points_at, velocities
 from ..model.tsqr import least_squares
@@ -44,6 +46,25 @@ class FrameEstimate(NamedTuple):
     T: Array
     covariance: Array
     held: Array
+
+    def summary(self) -> str:
+        """Name, place and turn with their standard deviations, in words.
+
+        Returns
+        -------
+        text : str
+            One sentence.
+        """
+        turn, shift = (1e3 * norm(of) for of in np.split(np.sqrt(np.diag(self.covariance)), 2))
+        x, y, z = 1e3 * translation_part(self.T)
+        angle = np.degrees(norm(so3.log(rotation_part(self.T))))
+        return (
+            f"{self.name} at ({x:.3f}, {y:.3f}, {z:.3f}) mm ± {shift:.2g} mm, turned by {angle:.3f}° ± "
+            f"{turn:.2g} mrad, {self.held.shape[1]} motions held"
+        )
+
+    def __repr__(self) -> str:
+        return brief(self, escape_unprintable(self.summary()))
 
 
 class BaseAndTool(NamedTuple):
@@ -144,7 +165,7 @@ def _least(
 
 
 def _rms(vectors: Array) -> float:
-    return float(np.sqrt(np.mean(np.sum(vectors**2, axis=-1))))
+    return float(np.sqrt(np.mean(np.sum(vectors**2, axis=1))))
 
 
 def frame_estimates(

@@ -26,8 +26,6 @@ def directions(
     unidentifiable (P, b): directions orthogonal to N that make no difference, so that N is told up
     to them.
     """
-    if not N.shape[1]:
-        return []
     # the part of each single parameter that lies in the space of N, of what of it makes a
     # difference
     left = np.ones(len(N))

@@ -12,13 +12,15 @@ import numpy as np
 from ....errors import InputError, join_names
 from ....groups import se3
 from ....groups.arrays import Array
-from ....groups.vectors import angular_part, linear_part, norms
+from ....groups.vectors import angular_part, linear_part, normalised_or_zero
+from ....results import brief
 from ..measurements.measurement import Measurement
 from ..measurements.points import point_at, velocities
 from ..measurements.poses import pose_error_jacobian
 from ..model.error_model import ErrorModel, PosesAndTwists
 from ..model.parameters import Parameter
 from ..model.problem import in_all_parameters
+from ..model.residuals import largest, median
 
 CONFIGURATIONS = 1000
 """How many random configurations stand for the workspace."""
@@ -34,6 +36,9 @@ class Estimate(NamedTuple):
     p: Array
     covariance: Array
     frames: Mapping[str, Array]
+
+    def __repr__(self) -> str:
+        return brief(self, f"{len(self.p)} parameters, {len(self.frames)} unknown frames")
 
     def at(self, q: Array) -> PosesAndTwists:
         """Poses and twists at the readings q (N, m)."""
@@ -68,12 +73,29 @@ class Workspace(NamedTuple):
         least_known = np.argmax(self.length)
         return np.asarray(self.q[least_known])
 
+    def summary(self) -> str:
+        """Medians, and the worst position with where it is, in words.
+
+        Returns
+        -------
+        text : str
+            One sentence.
+        """
+        worst = ", ".join(f"{x:.3g}" for x in self.worst)
+        length = 1e3 * median(self.length)
+        angle = 1e3 * median(self.angle)
+        return (
+            f"the tool is known to {length:.3g} mm and {angle:.3g} mrad over the workspace (standard "
+            f"deviation, median), worst {1e3 * largest(self.length):.3g} mm at q = ({worst})"
+        )
+
+    def __repr__(self) -> str:
+        return brief(self, self.summary())
+
 
 def pose_covariance(estimate: Estimate, q: Array) -> Array:
     """Covariance (N, 6, 6) of rotation vector and position at q (N, m), in base axes."""
-    T, D = estimate.at(q)
-    J = _of_pose(T, D)
-    return estimate.propagated(J)
+    return estimate.propagated(pose_jacobian(*estimate.at(q)))
 
 
 def relative_covariance(estimate: Estimate, q_a: Array, q_b: Array) -> Array:
@@ -83,8 +105,7 @@ def relative_covariance(estimate: Estimate, q_a: Array, q_b: Array) -> Array:
     back = se3.inverse(T_a)
     T_ab = back @ T_b
     D_ab = se3.adjoint(back) @ (D_b - D_a)
-    J = _of_pose(T_ab, D_ab)
-    return estimate.propagated(J)
+    return estimate.propagated(pose_jacobian(T_ab, D_ab))
 
 
 def distance_variance(estimate: Estimate, q_a: Array, q_b: Array, point: Array) -> Array:
@@ -93,9 +114,7 @@ def distance_variance(estimate: Estimate, q_a: Array, q_b: Array, point: Array) 
     T_b, D_b = estimate.at(q_b)
     a = point_at(T_a, point)
     b = point_at(T_b, point)
-    way = b - a
-    size = norms(way)[:, None]
-    u = way / np.maximum(size, np.finfo(float).tiny)
+    u = normalised_or_zero(b - a)
     apart = velocities(D_b, b) - velocities(D_a, a)
     J = u[:, None] @ apart
     return estimate.propagated(J)[:, 0, 0]
@@ -139,6 +158,7 @@ def workspace(estimate: Estimate, count: int, seed: int) -> Workspace:
     return Workspace(np.sqrt(of_length), np.sqrt(of_angle), q)
 
 
-def _of_pose(T: Array, D: Array) -> Array:
+def pose_jacobian(T: Array, D: Array) -> Array:
+    """Derivatives (N, 6, P) of rotation vector and position, in base axes, of twists D (N, 6, P)."""
     no_errors = np.zeros((len(T), 6))
     return pose_error_jacobian(T, no_errors, D)

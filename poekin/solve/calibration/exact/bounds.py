@@ -21,8 +21,7 @@ from ....model.checks import read_only
 from ..diagnostics.identification import RANK
 from ..fit.noise import NoiseEstimate
 from ..measurements.measurement import per_error
-from ..measurements.poses import Poses, pose_error_jacobian
-from ..model.error_model import ErrorModel
+from ..measurements.poses import Poses
 from ..result import CalibrationData
 
 ROUNDING = 2e-14
@@ -114,10 +113,3 @@ def screw_bounds(found: CalibrationData, fit: Propagation, largest: ReadingError
     moved = tilt**2 * moments + 2.0 * tilt * shift + rounding
     second = np.stack([turned, moved], axis=1)
     return first + np.repeat(second, 3, axis=1)
-
-
-def pose_jacobian(model: ErrorModel, p: Array, q: Array) -> Array:
-    """Derivatives (N, 6, P) of the pose's rotation vector and position, in base axes, at q (N, m)."""
-    T, D = model.poses_and_twists(p, q)
-    no_errors = np.zeros((len(T), 6))
-    return pose_error_jacobian(T, no_errors, D)

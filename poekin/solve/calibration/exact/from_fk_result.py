@@ -14,7 +14,8 @@ from ....model.chain import Chain
 from ....model.coordinates import coordinates
 from ....results import Result
 from ..calibration import Calibration
-from .bounds import Propagation, ReadingErrors, pose_jacobian, worst_case
+from ..diagnostics.uncertainty import pose_jacobian
+from .bounds import Propagation, ReadingErrors, worst_case
 
 _DRAWN = 1000
 
@@ -34,7 +35,7 @@ class PoseErrors(NamedTuple):
     position: Array
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FromFk(Result):
     """Arm that a controller calculates with, and how exact it is known at worst.
 
@@ -124,9 +125,8 @@ def pose_bound(
     q: Array,
 ) -> PoseErrors:
     """Largest errors of the poses at q (..., m)."""
-    p = found.values
     rows = q.reshape(-1, q.shape[-1])
-    J = pose_jacobian(found.error_model, p, rows)
+    J = pose_jacobian(*found.estimate.at(rows))
     components = worst_case(J, fit, errors).reshape(*q.shape[:-1], 2, 3)
     lengths = norms(components)
     return PoseErrors(lengths[..., 0], lengths[..., 1])

@@ -16,7 +16,7 @@ import numpy as np
 from ....errors import InputError
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.vectors import norms, rotation_part, translation_part
+from ....groups.vectors import normalised_or_zero, norms, rotation_part, translation_part
 from ..model.tsqr import least_squares
 from .flatness import FLAT, describe, extents, is_flat
 from .reweighted import Weighted, reweighted
@@ -237,7 +237,7 @@ def _mean_rotation(R: Array, w: Array) -> Weighted[Array]:
 
 def _mean_place(t: Array, w: Array) -> Weighted[Array]:
     mean = w @ t / w.sum()
-    return Weighted(mean, _lengths(t - mean))
+    return Weighted(mean, norms(t - mean))
 
 
 def _rotations(R_A: Array, R_B: Array, w: Array) -> Weighted[_Turns]:
@@ -304,7 +304,7 @@ def _linear(design: Array, rhs: Array, w: Array) -> Weighted[Array]:
         (root * rhs).ravel(),
     )
     misses = design @ x - rhs
-    return Weighted(x, _lengths(misses))
+    return Weighted(x, norms(misses))
 
 
 def _rigid(a: Array, b: Array, w: Array) -> Weighted[Array]:
@@ -315,7 +315,7 @@ def _rigid(a: Array, b: Array, w: Array) -> Weighted[Array]:
     R = _rotation((a - mean_a).T @ weighted)
     t = mean_a - R @ mean_b
     misses = b @ R.T + t - a
-    return Weighted(se3.pose(R, t), _lengths(misses))
+    return Weighted(se3.pose(R, t), norms(misses))
 
 
 def _multilateral(p: Array, d: Array, w: Array) -> Weighted[Array]:
@@ -333,7 +333,7 @@ def _multilateral(p: Array, d: Array, w: Array) -> Weighted[Array]:
     rhs = squares.sum(axis=1) - d * d
     solution = least_squares(design * row[:, None], rhs * row)
     c = solution[:3]
-    misses = _lengths(x - c) - d
+    misses = norms(x - c) - d
     return Weighted(c + mean, np.abs(misses))
 
 
@@ -364,18 +364,10 @@ def _nearer(
     root = np.sqrt(w)
     for _ in range(STEPS):
         away = c - p
-        length = _lengths(away)
-        divisor = np.maximum(length, _TINY)
-        u = away / divisor[:, None]
-        rows = u * root[:, None]
-        c = c - least_squares(rows, (length - d) * root)
-    misses = _lengths(p - c) - d
+        rows = normalised_or_zero(away) * root[:, None]
+        c = c - least_squares(rows, (norms(away) - d) * root)
+    misses = norms(p - c) - d
     return Weighted(c, np.abs(misses))
-
-
-def _lengths(vectors: Array) -> Array:
-    """Lengths (N,) of vectors (N, 3)."""
-    return norms(vectors)
 
 
 def _check_count(count: int, need: int, what: str) -> None:

@@ -247,7 +247,7 @@ def _bent(
     A = valley.rows[:, :-1]
     here = valley.rows[:, -1]
     ahead = p + objective.B @ (_AHEAD * z)
-    there = valley.weights * _whitened(objective, ahead)
+    there = valley.weights * objective.noise.stacked(objective.problem.errors(ahead))
     slope = (there - here) / _AHEAD
     second = 2.0 / _AHEAD * (slope - A @ z)
     scales = np.linalg.norm(linear.R, axis=0)
@@ -256,15 +256,6 @@ def _bent(
     if norm(scales * a) <= _BENDING * norm(scales * z):
         return z + a
     return z
-
-
-def _whitened(objective: _Objective, p: Array) -> Array:
-    """Whitened errors (M,)."""
-    found = []
-    for k, errors in enumerate(objective.problem.errors(p)):
-        e = objective.noise.whitened_errors(k, errors)
-        found.append(e.ravel())
-    return np.concatenate(found)
 
 
 def _solution(linear: _Linear, damping: float) -> Array:

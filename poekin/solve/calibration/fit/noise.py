@@ -73,6 +73,11 @@ class Noise:
         columns = errors[..., None]
         return self.whitened(k, columns)[..., 0]
 
+    def stacked(self, errors: Sequence[Array]) -> Array:
+        """L^-1 times the errors (N, d) of each set, one set behind the other (M,)."""
+        of_sets = [self.whitened_errors(k, e).ravel() for k, e in enumerate(errors)]
+        return np.concatenate(of_sets)
+
     def unwhitened(self, k: int, errors: Array) -> Array:
         """L times whitened errors (N, d) of set k."""
         W = self._whiten[k]

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from ....errors import InputError, UnknownName, join_names, quote, suggest
 from ....formats.poses.layout import OF_CONTROLLERS, PoseLayout
 from ....formats.poses.layout import layout as pose_layout
+from ....formats.text.csv_header import coordinate_names
 from ....formats.text.numbers import real
 
 _OF_POSES = ("poses", "eye-in-hand", "eye-to-hand")
@@ -16,7 +17,6 @@ _LAYOUTS = (
     "T00 ... T23, or x y z qw qx qy qz, or x y z roll pitch yaw, or x y z, or x1 y1 z1 x2 ..., or "
     "distance"
 )
-_STEMS = ("q", "j", "joint", "joint_", "axis", "axis_", "theta")
 
 
 class ColumnLayout(NamedTuple):
@@ -38,26 +38,6 @@ _OTHERS = (
     ColumnLayout(("x", "y", "z"), ("points",)),
     ColumnLayout(("distance",), ("distances",)),
 )
-
-
-def numbered(count: int) -> tuple[str, ...]:
-    """q1 ... qm, the names that coordinates have where a file does not use their own."""
-    return tuple(f"q{i + 1}" for i in range(count))
-
-
-def coordinate_names(q_names: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
-    """Names that a file may have for the coordinates: q1 ... qm, the chain's own, and others that are
-    numbered from 1 or from 0.
-    """
-    count = len(q_names)
-    own = {name.casefold() for name in q_names}
-    found = [numbered(count), q_names]
-    for stem in _STEMS:
-        for start in (1, 0):
-            names = tuple(f"{stem}{i + start}" for i in range(count))
-            if own.isdisjoint(names):
-                found.append(names)
-    return tuple(dict.fromkeys(found))
 
 
 def of_poses(poses: tuple[PoseLayout, ...]) -> tuple[ColumnLayout, ...]:
@@ -118,7 +98,7 @@ def _fault(
     if formats := _formats(there, fixed):
         return InputError(
             f"{here}: the columns {' '.join(pose_layout(formats[0]).columns)} make a pose of "
-            f"{join_names(formats)}: format= (--format) says of which"
+            f"{', '.join(map(_in_words, formats))}: format= (--format) says of which"
         )
     every = [layout for layout in (*fixed, _points(there)) if layout.columns]
     whole = [layout for layout in every if set(layout.columns) <= there]
@@ -141,13 +121,23 @@ def _fault(
     )
 
 
+def _in_words(format: str) -> str:
+    """A format of a pose in six numbers, with what the last three are."""
+    layout = pose_layout(format)
+    what = "a rotation vector" if layout.rotation == "vector" else "angles"
+    units: list[str] = list(dict.fromkeys(layout.units))
+    return f"{quote(format)} ({what}, {' and '.join(units)})"
+
+
 def _formats(words: set[str], fixed: tuple[ColumnLayout, ...]) -> list[str]:
     """Formats of poses, not among those that are expected, whose three angles or parts of a vector
     are there, in whatever case.
     """
     there = {word.casefold() for word in words}
     expected = {layout.pose.format for layout in fixed if layout.pose}
-    layouts = [x for x in map(pose_layout, ("rpy", *OF_CONTROLLERS)) if len(x.columns) == 6]
+    layouts = [
+        x for x in map(pose_layout, ("rpy", "rotvec", *OF_CONTROLLERS)) if len(x.columns) == 6
+    ]
     others = [x for x in layouts if x.format not in expected]
     return [x.format for x in others if there.issuperset(map(str.casefold, x.columns))]
 

@@ -4,8 +4,7 @@ observation.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields
 from types import MappingProxyType
 from typing import Any, NamedTuple, get_args
@@ -25,8 +24,8 @@ from ....errors import (
 from ....formats.poses import pose_rows
 from ....formats.poses.layout import PoseFormat
 from ....formats.poses.layout import layout as pose_layout
-from ....formats.text import csv_rows
-from ....formats.text.atomic_write import write_whole
+from ....formats.text import csv_header, csv_rows
+from ....formats.text.atomic_write import FilePath, write_whole
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.checks import finite
@@ -40,7 +39,6 @@ from .measurement import Measurement, MeasurementKind, rows_of
 from .points import Distances, Points
 from .poses import EyeInHand, EyeToHand, Poses
 
-Path = str | os.PathLike[str]
 KINDS: dict[str, type[Measurement]] = {
     "poses": Poses,
     "eye-in-hand": EyeInHand,
@@ -63,7 +61,7 @@ class MeasurementTable(NamedTuple):
 
 
 def read(  # noqa: PLR0913 - options by keyword
-    path: Path,
+    path: FilePath,
     chain: Chain,
     *,
     kind: MeasurementKind | None = None,
@@ -154,8 +152,8 @@ def read(  # noqa: PLR0913 - options by keyword
 
 
 def read_table(
-    path: Path | int,
-    chain: Chain,
+    path: FilePath | int,
+    chain: Chain | Callable[[list[str], str], Chain],
     where: str = "",
     *,
     kind: MeasurementKind | None = None,
@@ -166,8 +164,8 @@ def read_table(
 ) -> MeasurementTable:
     """The numbers of a file of measurements, before anything is made of them; the file is read
     once, so it may be a pipe, or the number of an open one. Parameters and errors: those of `read`;
-    where, what messages call the file (default: its path); conditions, whether columns of payload,
-    temperature and time are read.
+    chain, the arm, or what makes it of the first line's words and place; where, what messages call
+    the file (default: its path); conditions, whether columns of payload, temperature and time are read.
     """
     if kind is not None:
         choice(kind, KINDS, "kind")
@@ -178,7 +176,10 @@ def read_table(
     told: list[ConditionColumn] = []
 
     def choose(words: list[str], here: str) -> list[int]:
-        nonlocal header, told
+        nonlocal header, told, chain
+        words = convention.renamed(words, here)
+        if not isinstance(chain, Chain):
+            chain = chain(words, here)
         if conditions:
             told = condition_columns(words, {*chain.q_names, *passed_over}, here)
         of_others = (*passed_over, *(column.word for column in told))
@@ -208,7 +209,7 @@ def read_table(
     return MeasurementTable(q, values, header.layout, sources, found)
 
 
-def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
+def write(path: FilePath, chain: Chain, q: Any, measurement: Measurement) -> None:
     """Write measurements and the joint readings they were made at as `read` reads them.
 
     Kind, covariances and what is known of points and frames are not in the file.
@@ -257,12 +258,12 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
         )
     q = finite(q, "q")
     names = chain.q_names
-    numbered = columns.numbered(chain.dof)
+    q1_to_qm = csv_header.numbered(chain.dof)
     # names that another reader, or this one, would take for something else
-    if set(names) & {*measured, *numbered} or any(
+    if set(names) & {*measured, *q1_to_qm} or any(
         escape_unprintable(name).strip() != name for name in names
     ):
-        names = numbered
+        names = q1_to_qm
     table = np.column_stack([q[rows], values])
     text = csv_rows.text((*names, *measured), table)
     write_whole(path, text.encode())
@@ -300,7 +301,7 @@ def _values(
         if count > 1 and "points" not in known:
             raise InputError(
                 f"points: the file has {count} points a line; say where they are in the tip frame, "
-                "(k, 3)"
+                "(k, 3), or points=None"
             )
         return values.reshape(-1, count, 3)
     distances = values[:, 0]

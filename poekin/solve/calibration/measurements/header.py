@@ -11,20 +11,21 @@ from ....formats.poses.layout import AngleUnit, LengthUnit, PoseLayout
 from ....formats.poses.layout import layout as pose_layout
 from ....formats.poses.read import said_units
 from ....formats.text import csv_header
-from ....formats.text.csv_header import Columns, Conversion, Heading
+from ....formats.text.csv_header import COORDINATE, Columns, Conversion, Heading, coordinate_names
 from ....model.chain import Chain
-from .columns import POSES, ColumnLayout, coordinate_names, of_poses, parse_header
+from .columns import POSES, ColumnLayout, of_poses, parse_header
 
 
 class Convention(NamedTuple):
-    """Format of poses and units that a user said of a file, None where nothing was said; and the names
-    that columns of the file are to have.
+    """Format of poses and units that a user said of a file, None where nothing was said; the names
+    that columns of the file are to have, and units of some of these.
     """
 
     pose: PoseLayout | None = None
     mm: bool | None = None
     deg: bool | None = None
     rename: Mapping[str, str] = MappingProxyType({})
+    units: Mapping[str, str] = MappingProxyType({})
 
     @classmethod
     def of(cls, format: Any, mm: bool | None, deg: bool | None) -> Convention:
@@ -51,11 +52,30 @@ class Convention(NamedTuple):
         own, *others = of_poses((self.pose,))
         return (own,), tuple(others)
 
+    def renamed(self, words: list[str], here: str) -> list[str]:
+        """The words of a header with the names and units that were said. Raises: UnknownName."""
+        words = _replaced(words, self.rename, "rename", here)
+        with_units = {name: f"{name} [{unit}]" for name, unit in self.units.items()}
+        return _replaced(words, with_units, "units", here)
+
     def joint_unit(self, chain: Chain, k: int) -> str:
         """Unit of a coordinate."""
         if chain.is_angle(k):
             return "deg" if self.deg else "rad"
         return self.length
+
+
+def _replaced(
+    words: list[str],
+    names: Mapping[str, str],
+    what: str,
+    here: str,
+) -> list[str]:
+    """Words with others in the place of some. Raises: UnknownName where one is not there."""
+    for name in names:
+        if name not in words:
+            raise UnknownName(f"{here}: {what}: no column {quote(name)}; {suggest(name, words)}")
+    return [names.get(word, word) for word in words]
 
 
 class Header(NamedTuple):
@@ -84,10 +104,6 @@ def read_header(
 
     Raises: UnknownName, InputError, that begin with `here`.
     """
-    for name in convention.rename:
-        if name not in words:
-            raise UnknownName(f"{here}: rename: no column {quote(name)}; {suggest(name, words)}")
-    words = [convention.rename.get(word, word) for word in words]
     faults: list[PoekinError] = []
     for layouts in convention.layouts():
         headings = _headings(words, chain, ignore, layouts)
@@ -131,7 +147,7 @@ def _header(
     of_values = (convention.length,) * len(layout.columns)
     if layout.pose is not None:
         of_values = layout.pose.units
-    joints = Columns(names, "coordinate", units, said)
+    joints = Columns(names, COORDINATE, units, said)
     measured = Columns(layout.columns, "column", of_values, said)
     found = list(csv_header.conversions(headings, joints, here).items())
     values = csv_header.conversions(headings, measured, here)

@@ -29,7 +29,7 @@ GROSS_SHIFT = (0.05, 0.5)
 """Bounds of the distance in reaches of the arm by which a gross outlier is off."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Simulated(Result):
     """Simulated measurements and the truth behind them.
 
@@ -230,12 +230,13 @@ def _measure(
         seen = sensor.poses(se3.inverse(X) @ T @ Z)
         return _HAND_EYE[kind](seen, sensor.covariance(3, 3))
     if kind == "distances":
-        d = sensor.distances(T, points[0], centre)
+        (point,) = points
+        d = sensor.distances(T, point, centre)
         known = None if unknown else centre
         return Distances(
             d,
             known,
-            points[0],
+            point,
             sensor.covariance(0, 1),
         )
     frame: PointFrame = "base"

@@ -4,7 +4,8 @@ folds that they are drawn into, and the mean of what was measured at each.
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from collections.abc import Mapping
+from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,10 +32,9 @@ def configurations(q: Array) -> NDArray[np.intp]:
     label = np.zeros(count, np.intp)
     for column in np.tile(q, 2).T:
         order = np.lexsort((column, label))
-        apart = np.diff(label[order]) != 0
+        apart = np.diff(label[order]).astype(bool)
         apart |= np.diff(column[order]) > NEAR
         label[order[1:]] = np.cumsum(apart)
-        label[order[:1]] = 0
     _, first, label = np.unique(label, return_index=True, return_inverse=True)
     rank = np.empty(len(first), np.intp)
     rank[np.argsort(first)] = np.arange(len(first))
@@ -59,7 +59,15 @@ class Folds(NamedTuple):
         return found[label]
 
 
-def average_repeats(q: Any, measurements: Measurement) -> tuple[Array, Measurement]:
+@overload
+def average_repeats(q: Any, measurements: Measurement) -> tuple[Array, Measurement]: ...
+@overload
+def average_repeats(
+    q: Any, measurements: Measurement, conditions: Mapping[str, Any]
+) -> tuple[Array, Measurement, dict[str, Array]]: ...
+def average_repeats(
+    q: Any, measurements: Measurement, conditions: Mapping[str, Any] | None = None
+) -> tuple[Array, Measurement] | tuple[Array, Measurement, dict[str, Array]]:
     """Means of the measurements at readings that are the same to 1 mrad and 1 mm.
 
     `calibrate` takes repeated rows as they are: it holds them out together, and its intervals do
@@ -71,6 +79,9 @@ def average_repeats(q: Any, measurements: Measurement) -> tuple[Array, Measureme
         Joint readings, rad or m.
     measurements : Poses, EyeInHand, EyeToHand, Points or Distances
         Measurements at rows of q.
+    conditions : mapping of str to (N,) array_like, optional
+        Columns at the rows of q, as `calibrate` takes them: payload, temperature, time. Rows under
+        another payload, by more than 1 g, are no repeats.
 
     Returns
     -------
@@ -78,13 +89,15 @@ def average_repeats(q: Any, measurements: Measurement) -> tuple[Array, Measureme
         Mean readings of each configuration, in order of first appearance.
     measurements : Measurement
         The mean of what was measured at each, in its frame, and its covariance where one was given.
+    conditions : dict of str to (K,) ndarray
+        Mean conditions of each; only where conditions were given.
 
     Raises
     ------
     InputError
-        If `measurements` is none, or a reading is not finite.
+        If `measurements` is none, or a reading or condition is not finite.
     ShapeError
-        If q has no row for a measurement.
+        If q has no row for a measurement, or a condition no number for a row.
 
     Notes
     -----
@@ -111,11 +124,42 @@ def average_repeats(q: Any, measurements: Measurement) -> tuple[Array, Measureme
             f"q: expected readings (N, m) with a row for each of {len(measurements)} {measurements.what}, "
             f"got shape {q.shape}"
         )
-    return _averaged(q, rows, measurements)
+    columns = {}
+    for name, values in (conditions or {}).items():
+        column = finite(values, f"conditions[{name!r}]")
+        if column.shape != (len(q),):
+            raise ShapeError(
+                f"conditions[{name!r}]: expected a number for each of {len(q)} rows of q, got shape {column.shape}"
+            )
+        columns[name] = column
+    found = averages(q, rows, measurements, columns)
+    if conditions is None:
+        return found.q, found.measurements
+    return found.q, found.measurements, found.conditions
 
 
-def _averaged(q: Array, rows: Rows, s: Measurement) -> tuple[Array, Measurement]:
-    label = configurations(q[rows])
+class Averages(NamedTuple):
+    """Means of readings q (K, m), of what was measured at each and of columns (K,) of conditions, and
+    the first (K,) measurement of each.
+    """
+
+    q: Array
+    measurements: Measurement
+    conditions: dict[str, Array]
+    first: Rows
+
+
+def averages(
+    q: Array,
+    rows: Rows,
+    s: Measurement,
+    conditions: Mapping[str, Array],
+) -> Averages:
+    """Means over the rows of one configuration, and of one payload where there are several."""
+    told_apart = [q]
+    if "payload" in conditions:
+        told_apart.append(conditions["payload"][:, None])
+    label = configurations(np.concatenate(told_apart, axis=1)[rows])
     _, first, counts = np.unique(label, return_index=True, return_counts=True)
 
     def mean(values: Array) -> Array:
@@ -131,7 +175,8 @@ def _averaged(q: Array, rows: Rows, s: Measurement) -> tuple[Array, Measurement]
         # of a mean of k independent ones: the sum of covariances / k^2
         C = mean(s.covariance) / counts[:, None, None]
     means = s.subset(first).with_rows(None).with_measured(measured, C)
-    return mean(q[rows]), means
+    of_conditions = {name: mean(values[rows]) for name, values in conditions.items()}
+    return Averages(mean(q[rows]), means, of_conditions, first)
 
 
 def _projected(T: Array) -> Array:

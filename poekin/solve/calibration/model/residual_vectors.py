@@ -8,9 +8,11 @@ import numpy as np
 
 from ....checks import choice
 from ....groups.arrays import Array
-from ....groups.vectors import applied, rotation_part
+from ....groups.vectors import applied, normalised_or_zero, norms, rotation_part
+from ....results import brief
 from ..measurements.measurement import Frames, Measurement, Rows
 from ..measurements.points import Distances, Points, point_at, points_at
+from .residuals import rms
 
 Axes = Literal["base", "tool", "path"]
 _STILL = 1e-9  # m: a point that moved by less has no path
@@ -44,6 +46,20 @@ class ResidualVectors(NamedTuple):
     after: Array
     R: Array
     moves: Array
+
+    def summary(self) -> str:
+        """Number of the points, and root mean squares before and after, in words.
+
+        Returns
+        -------
+        text : str
+            One sentence.
+        """
+        before, after = (1e3 * rms(norms(errors)) for errors in (self.before, self.after))
+        return f"{len(self.rows)} points, {before:.3g} mm rms before, {after:.3g} mm after"
+
+    def __repr__(self) -> str:
+        return brief(self, self.summary())
 
     def in_axes(self, axes: Axes) -> ResidualVectors:
         """The differences in other axes; all else stays in the base frame.
@@ -100,8 +116,7 @@ def places_and_errors(s: Measurement, T: Array, frame_values: Frames) -> tuple[A
     if isinstance(s, Distances):
         places = point_at(T, s.point)
         away = places - next(iter(frame_values), s.centre)
-        size = np.linalg.norm(away, axis=1, keepdims=True)
-        along = errors * away / np.maximum(size, np.finfo(float).tiny)
+        along = errors * normalised_or_zero(away)
         return places[:, None], along[:, None]
     vectors = errors.reshape(len(T), -1, 3)
     if len(frame_values) and frame_values[0].ndim == 2:  # the frame in which the errors stand

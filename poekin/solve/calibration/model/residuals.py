@@ -18,7 +18,7 @@ from ..measurements.measurement import Measurement, Rows
 FIELDS = ("length", "angle", "set", "row")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Residuals(Result):
     """Distances and turns of the model from the measurements, one by one.
 

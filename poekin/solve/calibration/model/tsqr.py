@@ -1,4 +1,4 @@
-"""Least squares; products and QR in blocks of rows, below what makes OpenBLAS start threads.
+"""Least squares, products and QR in blocks of rows, below what makes OpenBLAS start threads.
 
 The matrices of a calibration are tall and narrow. At some hundred rows of forty numbers, waking
 threads and waiting for them costs more than the work itself, many times more where another process

@@ -16,7 +16,7 @@ from ....groups.arrays import Array
 from ....groups.vectors import norms, rotation_part, translation_part
 from ....html_page import caption, figure, paragraph, text
 from ..diagnostics.base_and_tool import FrameEstimate
-from ..diagnostics.effects.diagnosis import FitEvidence
+from ..diagnostics.effects.diagnosis import FitEvidence, ResidualDiagnosis
 from ..model.parameters import SHIFT, TILT
 from ..model.residual_vectors import ResidualVectors
 from ..model.residuals import Residuals, largest, median, rms
@@ -163,16 +163,11 @@ def _difference(j: JointComparison) -> float:
 
 def _diagnosis(found: CalibrationData) -> Iterator[str]:
     diagnosis = found.diagnosis
-    if diagnosis is None or found.residuals is None or found.evidence is None:
+    if diagnosis is not None:
+        yield from _tests(diagnosis)
+    if found.residuals is None or not isinstance(found.evidence, FitEvidence):
         yield paragraph("A calibration out of a file has no measurements to be looked at.")
         return
-    yield from (paragraph(f"{test}.") for test in diagnosis.findings)
-    if not diagnosis.findings:
-        yield paragraph(f"{diagnosis}.")
-    heads = ("residuals against", "chance", "explains (mm)")
-    rows = [(test.what, f"{test.p:.2g}", milli(test.size)) for test in diagnosis.tests]
-    table = _table(heads, rows)
-    yield html_page.details(f"{len(rows)} tests, chances corrected for their number", table)
     for picture in residual_plots.pictures(found.residuals, found.evidence):
         if picture.panels:
             yield figure(
@@ -181,12 +176,24 @@ def _diagnosis(found: CalibrationData) -> Iterator[str]:
     yield from _by_point(found.residuals, found.evidence)
 
 
+def _tests(diagnosis: ResidualDiagnosis) -> Iterator[str]:
+    yield from (paragraph(f"{test}.") for test in diagnosis.findings)
+    if not diagnosis.findings:
+        yield paragraph(f"{diagnosis}.")
+    heads = ("residuals against", "chance", "explains (mm)")
+    rows = [(test.what, f"{test.p:.2g}", milli(test.size)) for test in diagnosis.tests]
+    table = _table(heads, rows)
+    yield html_page.details(f"{len(rows)} tests, chances corrected for their number", table)
+
+
 def _by_point(residuals: ResidualVectors, evidence: FitEvidence) -> Iterator[str]:
     """Means of the residuals of each point and set, in axes of the tool."""
     e = residuals.in_axes("tool").after
     rows = []
     begin = 0
     for k, s in enumerate(evidence.problem.sets):
+        if not s.sees_arm:
+            continue
         count = max(1, (s.width - s.angular) // 3)
         end = begin + len(s) * count
         for j in range(count):

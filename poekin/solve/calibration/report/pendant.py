@@ -24,6 +24,7 @@ FORMS: dict[str, PoseFormat] = {
 }
 """Controllers, and their numbers as `pk.poses` names them."""
 _DECIMALS = {"m": 6, "mm": 3, "rad": 6, "deg": 4, "": 7}
+_SIZES = {"m": 1.0, "mm": 1e3, "rad": 1.0, "deg": np.rad2deg(1.0), "": 1.0}  # of 1 m or rad
 _STEP = 1e-6  # rad or m: central differences are right to 1e-10
 _HELD = 0.1  # what a held motion of a radian or a metre changes by less is known
 
@@ -56,10 +57,8 @@ def typed(
     J = np.stack([_slope(frame.T, form, axis) for axis in np.eye(6)], axis=1)
     variances = np.einsum("ij,jk,ik->i", J, frame.covariance, J)
     margins = TWO_SIGMA * np.sqrt(np.maximum(variances, 0.0))
-    units = np.array([1e3 if unit == "mm" else 1.0 for unit in chosen.units])
-    units[3:] = np.rad2deg(1.0) if "deg" in chosen.units else 1.0
-    by_held = np.abs(J @ frame.held) / units[:, None]
-    held = by_held.max(axis=1, initial=0.0) > _HELD
+    least = _HELD * np.array([_SIZES[unit] for unit in chosen.units])
+    held = np.any(np.abs(J @ frame.held) > least[:, None], axis=1)
     columns = (values.tolist(), margins.tolist(), chosen.units, held.tolist())
     return [TypedNumber(*number) for number in zip(chosen.columns, *columns, strict=True)]
 

@@ -57,7 +57,7 @@ def residuals(curves: Sequence[NamedResiduals]) -> str:
         every[0].set(ylabel="share of measurements (%)", ylim=(0, 103))
         _legend(figure, every[0], 3)
 
-    return _inline(3.5, draw)
+    return inline(3.5, draw)
 
 
 def _distributions(
@@ -72,7 +72,7 @@ def _distributions(
     axes.set(xscale="log", xlabel=label)
     axes.xaxis.set_major_formatter(_figure)
     axes.axhline(50, color=PALE, linewidth=0.8)
-    _plain(axes, "both")
+    plain(axes, "both")
 
 
 def _shares(values: Array) -> tuple[Array, Array]:
@@ -95,11 +95,11 @@ def uncertainty(length: Array, angle: Array) -> str:
         panels[0].set_ylabel("share of configurations (%)")
         panels[0].legend(frameon=False)
 
-    return _inline(2.9, draw)
+    return inline(2.9, draw)
 
 
 def _histogram(axes: Any, label: str, values: Array) -> None:
-    top = float(values.max(initial=0.0)) or 1.0
+    top = float(values.max()) or 1.0
     axes.hist(
         values,
         bins=30,
@@ -129,7 +129,7 @@ def steps(found: Sequence[Step]) -> str:
         _course(panels[0], "cost before the step", [s.cost for s in found], damped)
         _course(panels[1], "length of the step (rad, reaches)", [s.step for s in found], damped)
 
-    return _inline(2.7, draw)
+    return inline(2.7, draw)
 
 
 def _course(
@@ -157,7 +157,7 @@ def _course(
         axes.yaxis.set_major_formatter(_figure)
     axes.set(xlabel="step", ylabel=label)
     axes.xaxis.get_major_locator().set_params(integer=True)
-    _plain(axes, "y")
+    plain(axes, "y")
 
 
 def _figure(value: float, _: int) -> str:
@@ -177,11 +177,12 @@ def _legend(figure: Any, axes: Any, columns: int) -> None:
     )
 
 
-def _plain(axes: Any, grid: str) -> None:
+def plain(axes: Any, grid: str) -> None:
     """The house's look, with lines at the ticks of the axis `grid`."""
     axes.grid(axis=grid, color=GRID, linewidth=0.6)
     svg.plain(axes)
 
 
-def _inline(height: float, draw: Callable[[Any], None]) -> str:
+def inline(height: float, draw: Callable[[Any], None]) -> str:
+    """A picture as wide as the page, to be put into it."""
     return svg.inline(svg.svg(WIDTH, height, PURPOSE, draw))

@@ -9,14 +9,13 @@ import numpy as np
 
 from .... import svg
 from ....groups.arrays import Array
-from ....svg import GRID, INK, PALE
+from ....svg import INK, PALE
 from ..diagnostics.effects.diagnosis import FitEvidence
 from ..measurements.points import velocities
 from ..model.residual_vectors import ResidualVectors
 from ..terms.gravity import levers, wrist_in_tip
+from . import plots
 
-PURPOSE = "a report of a calibration"
-_WIDTH = 9.0
 _COLUMNS = 3
 _MOST_DOTS = 120  # of a panel
 _BINS = 8
@@ -112,7 +111,7 @@ def drawn(picture: Picture) -> str:
         for axes in grid[:, 0]:
             axes.set_ylabel("mm")
 
-    return svg.inline(svg.svg(_WIDTH, height, PURPOSE, draw))
+    return plots.inline(height, draw)
 
 
 def _dots(
@@ -137,6 +136,5 @@ def _dots(
             elinewidth=1,
         )
     axes.axhline(0, color=INK, linewidth=0.6)
-    axes.grid(axis="y", color=GRID, linewidth=0.6)
     axes.set_xlabel(panel.label)
-    svg.plain(axes)
+    plots.plain(axes, "y")

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
-from ....errors import escape_unprintable
-from ..model.residuals import largest, median
+from ....errors import escape_unprintable, quote
+from ....groups.arrays import Array
 from ..result import CalibrationData
 from . import changes, pendant
-from .changes import milli
 
 MOST_OUTLIERS = 12
 
 
 def text_of(found: CalibrationData) -> str:
     """Lines that `print` of a calibration shows."""
-    state = "NOT converged: the best that was found"
-    if found.success:
-        state = "converged"
     outliers = []
     if found.outliers:
         rows = ", ".join(str(o.row) for o in found.outliers[:MOST_OUTLIERS])
@@ -26,13 +24,13 @@ def text_of(found: CalibrationData) -> str:
         if more > 0:
             outliers[0] += f" and {more} more"
     lines = [
-        f"{len(found.parameters)} parameters, {len(found.after)} measurements, {state} in "
-        f"{len(found.steps)} steps",
+        headline(found),
         str(found.identification),
         *_table(found),
-        _known(found),
-        *_joints(found),
+        found.workspace().summary(),
+        *map(str, changes.aligned_joints(found)),
         *pendant.lines(found),
+        *_places(found),
         *_diagnosis(found),
         *map(str, found.terms),
         *outliers,
@@ -43,25 +41,38 @@ def text_of(found: CalibrationData) -> str:
     return "\n".join(escape_unprintable(line, keep="\n") for line in lines)
 
 
-def _joints(found: CalibrationData) -> list[str]:
-    """Changes of each joint, base and tool aligned."""
-    return [str(joint) for joint in changes.aligned_joints(found)]
+def headline(found: CalibrationData) -> str:
+    """Size of the fit, and whether it converged."""
+    state = "NOT converged: the best that was found"
+    if found.success:
+        state = "converged"
+    return (
+        f"{len(found.parameters)} parameters, {len(found.after)} measurements, {state} in "
+        f"{len(found.steps)} steps"
+    )
+
+
+def _places(found: CalibrationData) -> Iterator[str]:
+    """Points that were not known, each with its standard deviations."""
+    for name, place in found.frames.items():
+        if place.shape != (3,):
+            continue
+        mine = [k for k, p in enumerate(found.parameters) if p.owner == name]
+        sigma = np.sqrt(np.diag(found.covariance)[mine])
+        frame = found.nominal.tip if name.startswith("point") else found.nominal.base
+        told = f"{name} at ({_in_mm(place, 3)}) mm in {quote(frame)}, standard deviations ({_in_mm(sigma, 4)}) mm"
+        if any(name in words for words in found.identification.unidentifiable):
+            told += " while what is unidentifiable is fixed"
+        yield told
+
+
+def _in_mm(lengths: Array, digits: int) -> str:
+    return ", ".join(f"{1e3 * x + 0.0:.{digits}f}" for x in lengths)
 
 
 def _diagnosis(found: CalibrationData) -> list[str]:
     diagnosis = found.diagnosis
     return [] if diagnosis is None else [str(diagnosis)]
-
-
-def _known(found: CalibrationData) -> str:
-    """Uncertainty of the tool over the workspace, in words."""
-    known = found.workspace()
-    worst = ", ".join(f"{x:.3g}" for x in known.worst)
-    return (
-        f"the tool is known to {milli(median(known.length))} mm and {milli(median(known.angle))} "
-        f"mrad over the workspace (standard deviation, median), worst "
-        f"{milli(largest(known.length))} mm at q = ({worst})"
-    )
 
 
 def _table(found: CalibrationData) -> list[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from itertools import starmap
 from typing import Any
@@ -11,11 +10,12 @@ import numpy as np
 
 from ....formats import chain_toml
 from ....formats.chain_toml import CALIBRATED, FORMAT, NOMINAL, VERSION
-from ....formats.text import toml_text
-from ....formats.text.atomic_write import write_whole
+from ....formats.text import toml_text, xml
+from ....formats.text.atomic_write import FilePath, write_whole
 from ....formats.text.toml_text import Keys
 from ....results import Result
 from ..diagnostics.cross_validation import CrossValidation
+from ..diagnostics.effects import toml_evidence
 from ..diagnostics.identification import Identification
 from ..fit.losses import LOSSES
 from ..fit.minimise import Step
@@ -50,6 +50,7 @@ _TOP = (
     "remarks",
     "conditions",
     "term",
+    "diagnosis",
 )
 _COUNTS = ("size", "identifiable", "rank", "n_equations")
 _INDICES = ("condition", "smallest", "O1", "amplification")
@@ -57,7 +58,7 @@ _SAID = ("verdict", "warnings", "remarks")
 _WORDS = ("unidentifiable", "unobserved")
 
 
-def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
+def save(found: CalibrationData, path: FilePath) -> None:
     """Write a calibration, whole or not at all; see `Calibration.save`."""
     data: dict[str, Any] = {
         "format": FORMAT,
@@ -80,14 +81,20 @@ def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
         "conditions": dict(found.error_model.reference) or None,
         "term": [term._asdict() for term in found.terms] or None,
         "parameter": document.parameters(found),
+        "diagnosis": toml_evidence.to_data(found.evidence),
         "noise_std": [_data(noise._asdict()) if noise else {} for noise in found.noise_std],
     }
     write_whole(path, toml_text.make_text(_data(data)).encode())
 
 
-def load(path: str | os.PathLike[str], terms: Sequence[Term] = ()) -> CalibrationData:
+def load(path: FilePath, terms: Sequence[Term] = ()) -> CalibrationData:
     """Read what `save` wrote; see `calibration.load`. Raises: FileError, ModelError."""
-    opened = chain_toml.opened(path)
+    return read_text(*xml.read_text(path), terms)
+
+
+def read_text(text: str, place: str, terms: Sequence[Term] = ()) -> CalibrationData:
+    """The calibration in the text of what `save` wrote; see `calibration.load`. Raises: ModelError."""
+    opened = chain_toml.opened_text(text, place)
     keys = Keys(opened.data, opened.place, _TOP)
     nominal = chain_toml.to_chain(keys.table(NOMINAL))
     chain = chain_toml.to_chain(keys.table(CALIBRATED))
@@ -114,7 +121,7 @@ def load(path: str | os.PathLike[str], terms: Sequence[Term] = ()) -> Calibratio
         error_model=model,
         residuals=None,
         terms=tuple(map(_term, keys.tables("term", TermGain._fields))),
-        evidence=None,
+        evidence=toml_evidence.from_keys(keys),
         **{name: keys.texts(name) for name in _SAID if name in keys.data},
     )
     toml_checks.check_sets(keys, found)

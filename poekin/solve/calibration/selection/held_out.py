@@ -13,10 +13,8 @@ from ..fit.fitting import Fit
 from ..fit.losses import LossName, loss
 from ..model.configurations import Folds, configurations
 from ..model.problem import Problem
-from ..model.tsqr import blocked_product, qr_r
-
-_RANK = 1e-8  # of the largest singular value: directions below are rounding
-_INDEPENDENT = 1e-6  # of a column's length: what of it is left beside the others is rounding below
+from ..model.tsqr import blocked_product
+from .spans import INDEPENDENT, directions_beside, spanned
 
 
 class HeldOut(NamedTuple):
@@ -68,17 +66,9 @@ class LinearFit:
         groups = list(directions.values())
         every = np.concatenate(groups, axis=1)
         columns = blocked_product(rows[:, :-1], every)
-        sizes = np.linalg.norm(columns, axis=0)
-        columns /= np.where(sizes > 0.0, sizes, 1.0)
-        triangle = qr_r(columns)
-        _, s, Vt = np.linalg.svd(triangle, full_matrices=False)
-        kept = s > _RANK * s[:1]
-        s = s[kept]
-        Vt = Vt[kept]
-        self._Q = blocked_product(columns, Vt.T / s)
+        self._Q, in_Q = spanned(columns)
         widths = [D.shape[1] for D in groups]
         *inner, _ = np.cumsum(widths)
-        in_Q = s[:, None] * Vt
         parts = np.split(in_Q, inner, axis=1)
         self._columns = dict(zip(directions, parts, strict=True))
         self._b = rows[:, -1]
@@ -113,14 +103,7 @@ class LinearFit:
 
     def with_group(self, W: Array, name: str) -> Array:
         """W and more columns: those of a group, as far as they are not in the span of W."""
-        columns = self._columns[name]
-        sizes = np.linalg.norm(columns, axis=0)
-        known = sizes > 0.0
-        columns = columns[:, known] / sizes[known]
-        for _ in range(2):  # Gram-Schmidt is exact the second time
-            columns = columns - W @ (W.T @ columns)
-        U, s, _ = np.linalg.svd(columns, full_matrices=False)
-        independent = U[:, s > _INDEPENDENT]
+        independent = directions_beside(W, self._columns[name])
         return np.concatenate([W, independent], axis=1)
 
     def held_out(self, W: Array) -> HeldOut | None:
@@ -133,7 +116,7 @@ class LinearFit:
             left = np.eye(W.shape[1]) - QW.T @ QW
             values = np.linalg.eigvalsh(left)
             least = values.min(initial=1.0)
-            if least < _INDEPENDENT:
+            if least < INDEPENDENT:
                 return None
             of_others = total - own.T @ r[rows]
             z = np.linalg.solve(left, W.T @ of_others)

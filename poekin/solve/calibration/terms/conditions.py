@@ -10,8 +10,9 @@ import numpy as np
 from ....checks import alternatives
 from ....errors import InputError, ShapeError, UnknownName, quote, safe_repr
 from ....groups.arrays import Array, numbers
-from ....groups.vectors import normalised
+from ....groups.vectors import normalised, norms
 from ....model.checks import finite
+from ....results import brief
 
 NAMES = ("payload", "gravity", "approach", "previous", "time", "temperature")
 _DRIFTS = ("temperature", "time")  # the first that is given is what a drift follows
@@ -45,6 +46,10 @@ class Conditions(NamedTuple):
     approach: Array
     previous: Array
     drift: Array
+
+    def __repr__(self) -> str:
+        least, most = self.payload.min(initial=np.inf), self.payload.max(initial=-np.inf)
+        return brief(self, f"{len(self.payload)} readings, payload {least:g} to {most:g} kg")
 
 
 def parse_conditions(given: Mapping[str, Any] | None, q: Array) -> tuple[Conditions, Reference]:
@@ -114,10 +119,9 @@ def _columns(given: Mapping[str, Any] | None, q: Array) -> dict[str, Array]:
 
 
 def _directions(gravity: Array) -> Array:
-    lengths = np.linalg.norm(gravity, axis=1, keepdims=True)
-    if not lengths.all():
+    if not norms(gravity).all():
         raise InputError("conditions['gravity']: expected directions in the base frame, got zero")
-    return gravity / lengths
+    return normalised(gravity)
 
 
 def in_order(q: Array, reference: Reference) -> Conditions:

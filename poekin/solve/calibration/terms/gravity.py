@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ....analysis.axis_lines import nearest_point
 from ....errors import join_names
 from ....formulas.statics import gravity
 from ....groups.arrays import Array
@@ -153,11 +154,4 @@ def wrist(chain: Chain) -> Array:
     turns = norms(chain.screws[:, :3])
     turning = turns > 0.5
     axes = chain.screws[turning][-_LAST:]
-    omega = axes[:, :3]
-    moments = np.cross(omega, axes[:, 3:])  # the point of each axis nearest to the base's origin
-    along = omega[:, :, None] * omega[:, None, :]
-    across = np.eye(3) - along
-    off = moments - across @ tip
-    rows = across.reshape(-1, 3)
-    shift = np.linalg.lstsq(rows, off.ravel(), rcond=_MEET)[0]
-    return tip + shift
+    return nearest_point(axes, tip, _MEET)

@@ -59,6 +59,4 @@ def _is_solved(problem: IKProblem) -> bool:
     """Whether an arm of up to six coordinates has a closed form or is solved by elimination."""
     values = problem.domain.locked_values[None]
     free = ~problem.domain.locked
-    if free.sum() > 6:
-        return False
     return bool(solvers_for(problem.fast.chain, values, free, "auto"))

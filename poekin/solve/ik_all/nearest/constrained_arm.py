@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....analysis.axis_lines import Marks, place, prismatic
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.vectors import angular_part, applied, directions, dots, linear_part, normalised
+from ....groups.vectors import applied, directions, dots, normalised
 from ....model.chain_data import AnyChain, ChainData
 from ..structure import Family, meeting_point
 
@@ -42,7 +42,7 @@ class ConstrainedArm:
     """
 
     family: Family
-    slides: NDArray[np.bool_]
+    slides: Marks
     directions: Array
     points: Array
     pitches: Array
@@ -104,9 +104,9 @@ def rounded_arm(chain: ChainData, family: Family) -> ConstrainedArm:
     """The arm with three axes moved to the point nearest to them, or turned to their mean direction;
     all else stays.
     """
-    slides = np.array([kind == "prismatic" for kind in chain.kinds])
+    slides = prismatic(chain)
     w = directions(chain.screws)
-    points = np.cross(angular_part(chain.screws), linear_part(chain.screws))
+    points = place(chain.screws)
     three = list(family.joints)
     if family.kind == "meeting":
         points[three] = meeting_point(chain.screws[three])

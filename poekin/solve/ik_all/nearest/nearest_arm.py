@@ -7,17 +7,11 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
+from ....analysis.axis_lines import place, sine
 from ....errors import InputError, join_names
 from ....groups import so3
 from ....groups.arrays import Array
-from ....groups.vectors import (
-    angular_part,
-    directions,
-    linear_part,
-    norm,
-    rotation_part,
-    translation_part,
-)
+from ....groups.vectors import directions, norm, rotation_part, translation_part
 from ....model.chain import Chain
 from ....model.sampling import angle_mask, half_range, sampling_range
 from ....results import Result
@@ -26,7 +20,7 @@ from .constrained_arm import ConstrainedArm, Motions, rounded_arm
 from .pose_bound import pose_bound
 
 _CONFIGURATIONS = 96
-_STEPS = 12  # at most; three to nine are enough, down to rounding
+_STEPS = 40  # at most; two to twelve for an arm that is near, thirty for one that is far
 
 
 @dataclass(frozen=True)
@@ -222,10 +216,9 @@ def _changes(given: Chain, new: Chain) -> tuple[JointChange, ...]:
     for name, A, B in joints:
         w = directions(A)
         u = directions(B)
-        angle = np.arctan2(norm(np.cross(w, u)), w @ u)
-        foot = np.cross(angular_part(A), linear_part(A))
-        new_foot = np.cross(angular_part(B), linear_part(B))
-        changes.append(JointChange(name, float(angle), norm(new_foot - foot)))
+        angle = np.arctan2(sine(w, u), w @ u)
+        moved = norm(place(B) - place(A))
+        changes.append(JointChange(name, float(angle), moved))
     return tuple(changes)
 
 

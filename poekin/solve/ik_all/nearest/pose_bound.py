@@ -18,24 +18,20 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....analysis.axis_lines import Marks, place, prismatic
 from ....groups import se3, so3
 from ....groups.arrays import ROUNDOFF, Array
 from ....groups.vectors import (
-    angular_part,
     applied,
     directions,
     dots,
-    linear_part,
     norms,
     rotation_part,
     translation_part,
 )
 from ....model.chain_data import ChainData
 from ....model.sampling import largest_slides
-
-Marks = NDArray[np.bool_]
 
 _REWEIGHTED = 6  # rounds after which the sums hardly become less
 
@@ -76,11 +72,11 @@ def pose_bound(given: ChainData, other: ChainData) -> PoseBound:
 
 def _links(given: ChainData, other: ChainData) -> _Links:
     n = len(given.kinds)
-    slides = np.array([kind == "prismatic" for kind in given.kinds], bool)
+    slides = prismatic(given)
     w = directions(given.screws)
     u = directions(other.screws)
-    feet = _feet(given)
-    there = _feet(other)
+    feet = place(given.screws)
+    there = place(other.screws)
     o = _shortest_way(w, feet, slides, translation_part(given.home))
     on_axes = o[1:-1]
     R = _least_turn(w, u)
@@ -96,11 +92,6 @@ def _links(given: ChainData, other: ChainData) -> _Links:
     from_tip = np.cumsum(lengths[::-1])
     lever = np.append(from_tip[::-1], 0.0)
     return _Links(E, o, lever, _free_twists(w, on_axes, slides))
-
-
-def _feet(chain: ChainData) -> Array:
-    """Points (n, 3) of the axes that are nearest to the origin; 0 of a joint that slides."""
-    return np.cross(angular_part(chain.screws), linear_part(chain.screws))
 
 
 def _shortest_way(w: Array, feet: Array, slides: Marks, tip: Array) -> Array:

@@ -139,7 +139,7 @@ def missing_probability(tally: Tally) -> Array:
     room for more, and of the closed form of another arm.
     """
     searched = tally.restarts > 0
-    ends = np.where(tally.ends > 0, tally.ends, 1)
+    ends = np.maximum(tally.ends, 1)
     chance = (1.0 - 0.5 * tally.least_hits / ends) ** ends
     chance = np.where(searched, chance, np.where(tally.sure, 0.0, np.nan))
     nothing = searched & (tally.found == 0)

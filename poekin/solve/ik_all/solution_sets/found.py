@@ -12,6 +12,8 @@ from ....groups.arrays import Array
 from ...ragged import Ragged
 from .self_motion import SelfMotion
 
+_OF_TARGETS = ("ends", "restarts", "full", "singular")  # of `Found`: (N,), one of each target
+
 
 @dataclass(frozen=True, eq=False)
 class Found:
@@ -51,15 +53,12 @@ class Found:
         self_motion = {}
         for k, motion in self.self_motion.items():
             self_motion[int(numbers[k])] = motion
-        counts = _scattered(self.q.counts, numbers, count)
+        counts = scattered([numbers], [self.q.counts], count)
         return Found(
             q=Ragged(self.q.rows, counts),
             hits=self.hits,
-            ends=_scattered(self.ends, numbers, count),
-            restarts=_scattered(self.restarts, numbers, count),
-            full=_scattered(self.full, numbers, count),
-            singular=_scattered(self.singular, numbers, count),
             self_motion=self_motion,
+            **{name: scattered([numbers], [getattr(self, name)], count) for name in _OF_TARGETS},
         )
 
     def tally(self, sure: bool) -> Tally:
@@ -103,11 +102,8 @@ def joined(parts: Sequence[Found], dof: int) -> Found:
     return Found(
         q=Ragged(rows, counts),
         hits=np.concatenate([part.hits for part in parts]),
-        ends=np.concatenate([part.ends for part in parts]),
-        restarts=np.concatenate([part.restarts for part in parts]),
-        full=np.concatenate([part.full for part in parts]),
-        singular=np.concatenate([part.singular for part in parts]),
         self_motion=self_motion,
+        **{name: np.concatenate([getattr(part, name) for part in parts]) for name in _OF_TARGETS},
     )
 
 
@@ -127,11 +123,8 @@ def replaced(found: Found, numbers: np.ndarray, others: Found) -> Found:
     return Found(
         q=Ragged(rows[order], rest.q.counts + new.q.counts),
         hits=hits[order],
-        ends=np.where(kept, found.ends, new.ends),
-        restarts=np.where(kept, found.restarts, new.restarts),
-        full=np.where(kept, found.full, new.full),
-        singular=np.where(kept, found.singular, new.singular),
         self_motion=self_motion,
+        **{name: np.where(kept, getattr(found, name), getattr(new, name)) for name in _OF_TARGETS},
     )
 
 
@@ -151,9 +144,11 @@ def reduce_parts(
     return whole
 
 
-def _scattered(values: np.ndarray, numbers: np.ndarray, count: int) -> np.ndarray:
-    whole = np.zeros(count, values.dtype)
-    whole[numbers] = values
+def scattered(parts: Sequence[np.ndarray], values: Sequence[np.ndarray], count: int) -> np.ndarray:
+    """An array of `count` entries, those of each part's numbers from its values."""
+    whole = np.zeros(count, values[0].dtype)
+    for numbers, own in zip(parts, values, strict=True):
+        whole[numbers] = own
     return whole
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ....groups.arrays import Array
-from .found import Tally
+from .found import Tally, scattered
 from .places import Places
 
 
@@ -40,10 +40,7 @@ def gathered(parts: Sequence[ListedPart], count: int) -> Listing:
     found = [one.places for one in listings]
     tallies = [one.tally for one in listings]
     owner = np.concatenate([part.numbers[part.listing.places.owner] for part in parts])
-    # a slice takes no copy of what is in order, as of one part
-    order: Any = slice(None)
-    if (owner[1:] < owner[:-1]).any():
-        order = np.argsort(owner, kind="stable")
+    order = np.argsort(owner, kind="stable")
     q = np.concatenate([one.q for one in found])
     number = np.concatenate([one.number for one in found])
     errors = np.concatenate([one.errors for one in listings])
@@ -52,20 +49,12 @@ def gathered(parts: Sequence[ListedPart], count: int) -> Listing:
         for k, motion in tally.self_motion.items():
             self_motion[int(own[k])] = motion
 
-    def scattered(name: str, records: Sequence[Places | Tally]) -> np.ndarray:
+    def of_all(name: str, records: Sequence[Places | Tally]) -> np.ndarray:
         values = [getattr(record, name) for record in records]
-        return _scattered(numbers, values, count)
+        return scattered(numbers, values, count)
 
-    within = scattered("within", found)
+    within = of_all("within", found)
     places = Places(q[order], owner[order], number[order], within)
-    of_targets = {name: scattered(name, tallies) for name in Tally._fields[:-1]}
+    of_targets = {name: of_all(name, tallies) for name in Tally._fields[:-1]}
     tally = Tally(**of_targets, self_motion=self_motion)
     return Listing(places, errors[order], tally)
-
-
-def _scattered(parts: Sequence[np.ndarray], values: Sequence[np.ndarray], count: int) -> np.ndarray:
-    """An array of `count` entries, those of each part's numbers from its values."""
-    whole = np.zeros(count, values[0].dtype)
-    for numbers, own in zip(parts, values, strict=True):
-        whole[numbers] = own
-    return whole

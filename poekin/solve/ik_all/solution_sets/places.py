@@ -45,6 +45,10 @@ class Places(NamedTuple):
     number: np.ndarray
     within: np.ndarray
 
+    def chosen(self, rows: np.ndarray) -> Places:
+        """The configurations of these rows, and `within` as it is."""
+        return self._replace(q=self.q[rows], owner=self.owner[rows], number=self.number[rows])
+
 
 def turns_within(box: Box, Q: Array) -> tuple[Array, Array]:
     """The fewest and the most periods (S, m) that may be added to configurations within the limits.
@@ -134,11 +138,7 @@ def in_order(places: Places, ratios: Array) -> Places:
     alone, by later coordinates.
     """
     order = _order(places.q * ratios, places.owner)
-    return places._replace(
-        q=places.q[order],
-        owner=places.owner[order],
-        number=places.number[order],
-    )
+    return places.chosen(order)
 
 
 def _order(q: Array, owner: np.ndarray) -> np.ndarray:

@@ -24,8 +24,8 @@ def yaml_text(names: Sequence[str], times: Array, q: Array, dq: Array) -> str:
     for t, row, rates in zip(times.tolist(), q.tolist(), dq.tolist(), strict=True):
         time = _time(t)
         lines += [
-            f"- positions: {_numbers(row)}",
-            f"  velocities: {_numbers(rates)}",
+            f"- positions: {number_list(row)}",
+            f"  velocities: {number_list(rates)}",
             f"  time_from_start: {{sec: {time['sec']}, nanosec: {time['nanosec']}}}",
         ]
     return "\n".join(lines) + "\n"
@@ -34,7 +34,7 @@ def yaml_text(names: Sequence[str], times: Array, q: Array, dq: Array) -> str:
 def json_text(names: Sequence[str], times: Array, q: Array, dq: Array) -> str:
     """trajectory_msgs/JointTrajectory as JSON, one point a line, which is YAML 1.1 and 1.2, too."""
     points = [
-        f'{{"positions": {_numbers(row)}, "velocities": {_numbers(rates)}, '
+        f'{{"positions": {number_list(row)}, "velocities": {number_list(rates)}, '
         f'"time_from_start": {json.dumps(_time(t))}}}'
         for t, row, rates in zip(times.tolist(), q.tolist(), dq.tolist(), strict=True)
     ]
@@ -56,7 +56,8 @@ def number(value: float) -> str:
     return digits + exponent + power
 
 
-def _numbers(values: Sequence[float]) -> str:
+def number_list(values: Sequence[float]) -> str:
+    """Numbers in brackets, as YAML, JSON and URScript read them."""
     return f"[{', '.join(map(number, values))}]"
 
 

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from ....errors import ModelError, join_names
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.provenance import warn
-from .joint_trajectory import number
+from .joint_trajectory import number, number_list
 
 JOINTS = 6
 MANY = 5000
@@ -58,9 +56,6 @@ def urscript(
     }
     # a name of a file must not end the comment, nor leave ASCII
     listed = ", ".join(name.encode("unicode_escape").decode() for name in names)
-    body = [LINE.format(q=_configuration(row), **options) for row in q[1:]]
-    return HEAD.format(names=listed, start=_configuration(q[0])) + "".join(body) + TAIL
-
-
-def _configuration(q: np.ndarray) -> str:
-    return f"[{', '.join(map(number, q.tolist()))}]"
+    rows = q.tolist()
+    body = [LINE.format(q=number_list(row), **options) for row in rows[1:]]
+    return HEAD.format(names=listed, start=number_list(rows[0])) + "".join(body) + TAIL

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 import poekin as pk
 from benchmarks.planted_changes import arm
 from poekin.analysis.axis_lines import Tolerances
+from poekin.analysis.compare.alignment import diagnosis
 from poekin.analysis.compare.alignment.diagnosis import diagnose
 from poekin.groups import se3
 
@@ -151,3 +155,27 @@ def test_the_diagnosis_is_one_whichever_model_comes_first():
     back = two.reading.swapped(other)
     assert back.axes == pytest.approx(one.reading.axes, abs=1e-12)
     assert back.zeros == pytest.approx(one.reading.zeros, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("worst", "mean", "holds"),
+    [(1.5, 1.5, False), (0.5, 1.5, True), (1.5, 0.5, True), (-0.5, 1.5, True), (1.5, -0.5, True)],
+)
+def test_a_reading_is_none_where_its_worst_pose_and_its_mean_are_worse_by_more_than_a_tolerance(
+    worst, mean, holds, monkeypatch
+):
+    room = 1e-3
+    before = np.array([0.0, 0.01, 0.02])
+    centre = before.mean() + mean * room
+    top = before.max() + worst * room
+    rest = 3 * centre - top
+    after = np.array([rest / 2, rest / 2, top])
+    given: Any = SimpleNamespace(
+        samples=[None],
+        a=SimpleNamespace(fk=lambda x: None),
+        b=SimpleNamespace(fk=lambda x: before),
+        pair=SimpleNamespace(n=6, tol=SimpleNamespace(position=room)),
+    )
+    reading: Any = SimpleNamespace(beside_link=np.zeros(6, bool), poses=lambda chain, x: after)
+    monkeypatch.setattr(diagnosis, "pose_differences", lambda ours, theirs: (theirs, None))
+    assert diagnosis._holds(given, reading) == holds

@@ -111,8 +111,9 @@ def test_conventions_come_once_and_in_their_order():
 
 
 JOINT = JointComparison(
-    1, "a", "b", "revolute", "revolute", 0.0, 0.0, 0.0, 0.0, False, (0.0, 0.0), False, False
-)
+    1, "a", "b", "revolute", "revolute", 0.0, 0.0, 0.0, 0.0, False, (0.0, 0.0), False, False,
+    "", "", False, 0.0, (0.0, 0.0),
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("changes, same, differ", [

@@ -33,6 +33,7 @@ def chain(tmp_path, turns):
     return pk.load(str(path)).chain()
 
 
+@pytest.mark.filterwarnings("ignore:.*rpy is more than a turn")
 @pytest.mark.parametrize(
     "degrees, rounded",
     [((0, 90, -90, 90, 0), 1e-4), ((0, 45, 0, -30, 180), 1e-4), ((0, 0, 180, 90, 90), 1e-12)],
@@ -57,6 +58,7 @@ def test_what_differs_otherwise_is_not_called_so(name, change):
     assert in_degrees(one, random_arm(3, ("revolute",) * one.dof)) == ""
 
 
+@pytest.mark.filterwarnings("ignore:.*rpy is more than a turn")
 def test_one_angle_of_many_that_fits_by_chance_says_nothing(tmp_path):
     right = chain(tmp_path, np.radians([0, 90, -90, 90, 0]))
     some = chain(tmp_path, [0, 90, *np.radians([-80, 60, 20])])

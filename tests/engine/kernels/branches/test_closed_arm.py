@@ -31,6 +31,16 @@ def flat(T: np.ndarray) -> tuple[float, ...]:
     return (*T[:3, :3].ravel(), *T[:3, 3])
 
 
+def test_numbers_of_an_arm_have_places_of_their_own():
+    named = closed_arm.DIRECTION, closed_arm.POINT, closed_arm.SLIDES, closed_arm.COLUMN
+    assert named == (0, 3, 6, 7)
+    named = closed_arm.FAMILY, closed_arm.TURNED, closed_arm.ACROSS, closed_arm.ADDED
+    assert named == (0, 1, 2, 5)
+    assert (closed_arm.HOME, closed_arm.RULE) == (6, 9)
+    assert closed_arm.SHAPE == (10, 8)
+    assert closed_arm.BRANCHES == 8
+
+
 @given(SEEDS, TURNED)
 def test_the_tool_s_displacement_brings_its_home_to_the_target(seed, turned):
     table, T, D = drawn(seed, turned)
@@ -97,6 +107,8 @@ def test_coordinates_are_written_in_the_chain_s_order_at_once_or_as_points_first
         (1e-5, -0.2, -0.2, True),
         (2e-3, 0.7, -2e-3, False),
         (5e-10, -1e-12, -5e-10, True),
+        (5e-10, 0.0, -5e-10, True),
+        (1e-10, -1e-12, -1e-10, True),
     ],
 )
 def test_a_joint_that_the_arm_does_not_have_makes_a_row_none_by_as_far_as_it_is_from_zero(
@@ -108,7 +120,30 @@ def test_a_joint_that_the_arm_does_not_have_makes_a_row_none_by_as_far_as_it_is_
         point[2:4] = 1.0, 0.0
         point[8:10] = 0.0, 0.0
         point[2 * joint : 2 * joint + 2] = (off, 0.0) if slides else (np.cos(off), np.sin(off))
+        table = six(tuple(columns), (4,))
         row = np.full(5, np.nan)
-        assert closed_arm.store(six(tuple(columns), (4,)), point, margin, row) is kept
+        assert closed_arm.store(table, point, margin, row) is kept
         assert row[-1] == pytest.approx(found, rel=1e-12)
         np.testing.assert_allclose(row[:4], [0.1, 0.3, 0.4, 0.6], rtol=0, atol=1e-15)
+        row = np.full(13, np.nan)
+        assert closed_arm.store(table, point, margin, row) is kept
+        closed_arm.finish(table, row)
+        assert row[-1] == pytest.approx(found, rel=1e-12)
+        np.testing.assert_allclose(row[:4], [0.1, 0.3, 0.4, 0.6], rtol=0, atol=1e-15)
+
+
+def test_a_slide_at_the_borders_of_zero_is_within_them():
+    table = six((0, 1, 2, 3, 4, -1), (5,))
+    for off, margin, kept in ((1e-9, 0.7, True), (1e-3, -1e-3, True), (1.1e-3, -1.1e-3, False)):
+        row = np.full(6, np.nan)
+        assert closed_arm.store(table, (*X[:10], off, 0.0), 0.7, row) is kept
+        assert row[-1] == margin
+        np.testing.assert_allclose(row[:5], 0.1 * np.arange(1, 6), rtol=0, atol=1e-15)
+
+
+def test_the_last_joint_may_slide():
+    table = six((0, 1, 2, 3, 4, 5), (5,))
+    row = np.full(19, np.nan)
+    assert closed_arm.store(table, (*X[:10], 7.0, 0.0), 0.7, row)
+    closed_arm.finish(table, row)
+    assert row[5] == 7.0

@@ -32,10 +32,16 @@ def test_one_target_uncompiled_and_a_batch_compiled_have_the_same_rows(name, joi
     reached = chain.fk(solutions)
     # 1e-8 m and rad: some thousand roundings, over how far from singular the pose is
     np.testing.assert_allclose(reached, np.broadcast_to(T, reached.shape), rtol=0, atol=1e-8)
+    angles = one[:count, :joints]
+    plain = np.full((2, 8, joints + 1), 7.0)
+    closed_kernels.branches_of(table).function(table, np.stack([T, T]), plain)
+    for rows in plain:
+        np.testing.assert_allclose(rows[:count, :-1], angles, rtol=0, atol=1e-15)
+        np.testing.assert_array_equal(rows[:count, -1], one[:count, -1])
+        assert np.isnan(rows[count:]).all()
     many = np.empty((2, 8, joints + 1))
     closed_kernels.branches_of(table).call(table, np.stack([T, T]), many)
     np.testing.assert_array_equal(many[0], many[1])
-    angles = one[:count, :joints]
     np.testing.assert_allclose(many[0, :count, :-1], angles, atol=1e-9)
     np.testing.assert_allclose(many[0, :count, -1], one[:count, -1], atol=1e-9)
     points = np.concatenate([np.cos(angles), np.sin(angles)], axis=1)
@@ -46,13 +52,39 @@ def test_one_target_uncompiled_and_a_batch_compiled_have_the_same_rows(name, joi
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("at", [(0, 0), (1, 2), (2, 3)])
-def test_a_target_that_is_not_finite_has_no_rows(bad, at):
-    chain, table = arm("ur5")
+@pytest.mark.parametrize("name", ["ur5", "puma560"])
+def test_a_target_that_is_not_finite_has_no_rows(name, bad, at):
+    chain, table = arm(name)
     T = chain.fk(Q)
     T[at] = bad
-    rows = np.empty((1, 8, 7))
-    closed_kernels.branches_of(table).call(table, T[None].copy(), rows)
-    assert np.isnan(rows).all()
+    run = closed_kernels.branches_of(table)
+    for each in (run.call, run.function):
+        rows = np.full((1, 8, 7), 7.0)
+        with np.errstate(invalid="ignore"):
+            each(table, T[None].copy(), rows)
+        assert np.isnan(rows).all()
+    with np.errstate(invalid="ignore"):
+        assert closed_kernels.fill(table, T, np.empty((8, 19))) == 0
+
+
+def test_a_displacement_is_finite_where_its_diagonal_and_its_place_are():
+    half_turn = (1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0)
+    for R in (
+        half_turn,
+        (1e308, 0, 0, 0, -1e308, 0, 0, 0, 0),
+        (1e200,) * 9,
+        (0, 0, 0, 0, 1e308, 0, 0, 0, -1e308),
+    ):
+        for p in ((0.0, 0.0, 0.0), (1.0, 2.0, 3.0)):
+            assert closed_kernels.is_finite(R, p)
+    # the square of the length is finite up to 1.34e154
+    assert closed_kernels.is_finite((1.0, 0, 0, 0, 1.0, 0, 0, 0, 1.0), (1.3e154, 0.0, 0.0))
+    for bad in (np.nan, np.inf, -np.inf):
+        for i in (0, 4, 8):
+            for p in ((0.0, 0.0, 0.0), (1.0, 2.0, 3.0)):
+                assert not closed_kernels.is_finite((*half_turn[:i], bad, *half_turn[i + 1 :]), p)
+        for p in ((bad, 0.0, 0.0), (0.0, bad, 0.0), (0.0, 0.0, bad)):
+            assert not closed_kernels.is_finite(half_turn, p)
 
 
 def test_a_joint_that_the_arm_does_not_have_is_at_zero_in_every_solution():

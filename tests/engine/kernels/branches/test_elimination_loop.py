@@ -48,9 +48,14 @@ def test_the_second_axis_is_the_z_axis_and_a_step_leads_from_each_axis_to_the_ne
     np.testing.assert_array_equal(module.steps(axes), steps)
 
 
+def test_numbers_of_a_rule_have_places_of_their_own():
+    assert (module.UNIT, module.REVERSED, module.BEGIN, module.QUARTERS) == (0, 1, 2, 3)
+
+
 def test_lengths_are_in_the_arm_s_unit():
     one, two = (table(ARM, 0, 2) for _ in range(2))
-    two[8, module.UNIT] = 2 * one[8, module.UNIT]
+    one[8, module.UNIT] = 1.0
+    two[8, module.UNIT] = 2.0
     rows = [np.empty((6, 6)), np.empty((6, 6))]
     G, H = (
         module.loop(arm, module.motion(arm, ARM.fk(Q)), axes)
@@ -60,6 +65,9 @@ def test_lengths_are_in_the_arm_s_unit():
     np.testing.assert_array_equal(rows[0][:, 3:], 2 * rows[1][:, 3:])
     assert G[:9] == H[:9]
     np.testing.assert_array_equal(G[9:], 2 * np.array(H[9:]))
+    places = np.cumsum(ARM.to_hp().P[:6], axis=0)  # of the axes, in m
+    found = np.linalg.norm(rows[0][:3, 3:] - rows[0][1, 3:], axis=1)
+    np.testing.assert_allclose(found, np.linalg.norm(places[2:5] - places[3], axis=1), rtol=1e-12)
 
 
 def test_the_target_moves_the_axes_among_themselves_unless_the_loop_is_cut_beside_the_first():

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.engine.kernels.branches import listed_branches as kernel
-from poekin.model.kinematics.compiled import CompiledChain
 from poekin.solve.ik.ik_problem import kernel_options
 from poekin.solve.ik_all.closed_form import closed_form
 from poekin.solve.ik_all.ik_all_search import POSE
 from poekin.solve.ik_all.solution_sets.places import Box, make_places
 from poekin.solve.ragged import Ragged
+from tests.engine.kernels.branches.four_at_once import plain
 
 TURN = 2 * np.pi
 Q = np.array([0.4, -1.2, 1.5, -0.3, 0.8, 0.2])
@@ -22,34 +22,38 @@ RULE = np.array([1e-12, 1e-9, 1e-4, np.inf])
 ANYWHERE = np.tile([-np.inf, np.inf, TURN], (6, 1))
 
 
-def branches() -> tuple[CompiledChain, np.ndarray, np.ndarray, np.ndarray]:
+def branches() -> tuple[pk.Chain, np.ndarray, np.ndarray, np.ndarray]:
     """An arm, a target, its branches and their margins."""
     chain = pk.load("ur5").chain()
     found = closed_form(chain)
     assert found is not None
     T = chain.fk(Q)[None]
     rows, margins = found.rows(T)
-    return chain.compile(), T, rows.copy(), margins.copy()
+    return chain, T, rows.copy(), margins.copy()
 
 
-def listed(arm, T, rows, margins, box=ANYWHERE, rule=RULE):
+def listed(chain, T, rows, margins, box=ANYWHERE, rule=RULE, compiled=False):
     """Solutions, their errors and places, and the counts."""
     branches = np.concatenate([rows, margins[:, :, None]], axis=2)
     room = len(rows) * rows.shape[1]
-    q = np.empty((room, 6))
-    errors = np.empty((room, kernel.ERRORS))
-    info = np.empty((len(rows), kernel.INFO))
+    q = np.full((room, 6), np.nan)
+    errors = np.full((room, kernel.ERRORS), np.nan)
+    info = np.full((len(rows), kernel.INFO), np.nan)
     options = kernel_options(POSE, 1e-13, 1e-13, 8)
-    kernel.listed.call(
-        arm.hybrid_address, branches, T, box, np.zeros(6), options, rule, q, errors, info
-    )
+    rest = (branches, T, box, np.zeros(6), options, rule, q, errors, info)
+    if compiled:
+        kernel.listed.call(chain.compile().hybrid_address, *rest)
+    else:
+        with plain():
+            kernel.listed.function(chain, *rest)
     within = int(info[:, kernel.WITHIN].sum())
     return q[:within], errors[:within], info if len(rows) > 1 else info[0]
 
 
-def test_branches_clear_of_one_another_are_listed_in_order_with_their_errors():
+@pytest.mark.parametrize("compiled", [False, True])
+def test_branches_clear_of_one_another_are_listed_in_order_with_their_errors(compiled):
     arm, T, rows, margins = branches()
-    q, errors, info = listed(arm, T, rows, margins)
+    q, errors, info = listed(arm, T, rows, margins, compiled=compiled)
     assert info.tolist() == [8, 8, 1]
     assert q.round(9).tolist() == sorted(q.round(9).tolist())
     assert (errors[:, : kernel.PLACES] < 1e-13).all()
@@ -78,7 +82,8 @@ def test_a_target_with_any_branch_that_is_not_clear_is_left_to_the_search(fault)
         margins[:] = -1.0
     else:
         rows[0, 3, 2] = np.nan
-    *_, info = listed(arm, T, rows, margins)
+    # plain Python has no integer of a NaN
+    *_, info = listed(arm, T, rows, margins, compiled=fault == "no number")
     assert not info[kernel.IS_CLEAR]
 
 
@@ -95,18 +100,19 @@ def test_a_target_without_solutions_is_clear_where_all_of_its_margins_tell_so():
     assert info.tolist() == [0, 0, 0]
 
 
-def test_targets_are_listed_one_after_the_other_without_those_that_are_not_clear():
+@pytest.mark.parametrize("compiled", [False, True])
+def test_targets_are_listed_one_after_the_other_without_those_that_are_not_clear(compiled):
     arm, T, rows, margins = branches()
     T = np.repeat(T, 3, axis=0)
     rows = np.repeat(rows, 3, axis=0)
     margins = np.repeat(margins, 3, axis=0)
     margins[0, 2] = np.nan
     rows[1, 5] += 1.0
-    q, errors, info = listed(arm, T, rows, margins)
+    q, errors, info = listed(arm, T, rows, margins, compiled=compiled)
     assert info.tolist() == [[7, 7, 1], [8, 0, 0], [8, 8, 1]]
     assert len(q) == 15
-    first, *_ = listed(arm, T[:1], rows[:1], margins[:1])
-    last, *_ = listed(arm, T[2:], rows[2:], margins[2:])
+    first, *_ = listed(arm, T[:1], rows[:1], margins[:1], compiled=compiled)
+    last, *_ = listed(arm, T[2:], rows[2:], margins[2:], compiled=compiled)
     np.testing.assert_array_equal(q, np.concatenate([first, last]))
     assert (errors[:, : kernel.PLACES] < 1e-13).all()
 

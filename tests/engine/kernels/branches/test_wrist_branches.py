@@ -21,6 +21,7 @@ def test_the_configuration_of_a_pose_is_among_its_branches(first, others):
     chain = arms.arm(5, "wrist", first, others)
     q = np.where(arms.sliding(chain), 0.2 * Q, Q)
     rows, margins = filled(chain, q)
+    assert (margins > -np.inf).all()
     # some 100 roundings of numbers up to 1, over how far from singular the arm is
     limit = 100 * np.finfo(float).eps / arms.clearance(chain, q)
     assert arms.apart(chain, rows[None][:, margins > 0], q[None])[0] <= limit

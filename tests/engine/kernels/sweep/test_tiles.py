@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -38,6 +40,12 @@ def test_the_centres_of_a_tile_s_nine_ninths_are_in_it(n):
 def test_a_pole_is_in_a_tile_that_ends_there(n, z):
     tile = tiles.tile(0.0, 0.0, z, n)
     assert tile == (n * n - 1 if z > 0 else 8 * n * n)
+
+
+@pytest.mark.parametrize("n", [1, 5])
+def test_a_unit_vector_longer_by_a_rounding_is_in_the_pole_s_tile(n):
+    for z in (1 + 2.0**-52, -1 - 2.0**-52):
+        assert tiles.tile(1e-9, 1e-9, z, n) == tiles.tile(1e-9, 1e-9, math.copysign(1, z), n)
 
 
 SIDE = 0.25

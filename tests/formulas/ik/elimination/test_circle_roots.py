@@ -167,3 +167,18 @@ def test_halves_are_points_of_half_of_each_sample_s_angle():
 def test_rows_that_are_done_four_numbers_at_once_have_fours_of_them():
     for width in (circle_roots.COEFFICIENTS, circle_roots.ARCS, ROOM, line_equations.ROOM):
         assert width % 4 == 0
+
+
+def test_the_steepest_slope_is_the_sum_of_what_each_order_has():
+    f = np.random.default_rng(3).normal(size=2 * circle_roots.DEGREE + 1)
+    each = [k * np.hypot(*f[2 * k - 1 : 2 * k + 1]) for k in range(1, circle_roots.DEGREE + 1)]
+    # of some 20 products and roots, each rounded by 1.2e-16 of itself
+    assert circle_roots.steepest(f) == pytest.approx(sum(each), rel=1e-14)
+
+
+@pytest.mark.parametrize("sign", (1, -1))
+def test_a_first_guess_is_where_the_coefficients_joined_by_lines_pass_0(sign):
+    last = circle_roots.LENGTH - 1
+    for place in (0.25, 1.5, last - 0.125):
+        b = [math.nan, *(sign * (place - j) for j in range(last + 1))]
+        assert circle_roots._crossing(b, 1) == place / last

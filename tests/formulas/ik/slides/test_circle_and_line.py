@@ -108,3 +108,16 @@ def test_two_linear_equations_have_two_rows_and_two_that_are_none():
 def test_equations_without_the_length_say_that_nothing_tells_it():
     first, second = (1.0, 0.0, 0.0, 0.0, 0.5), (0.0, 1.0, 0.0, 0.0, 0.5)
     assert all(row[4] <= -1.0 for row in circle_and_line.roots(first, second))
+
+
+@given(SEEDS)
+def test_both_roots_of_linear_equations_are_near_before_they_are_sharpened(seed):
+    """t is a quotient: what rounding leaves, some u, is over the larger of the factors of t."""
+    first, second, _, _ = equations(seed, 0.0)
+    for row in circle_and_line._of_line(first, second)[:2]:
+        c, s, t, _, margin = row
+        if margin >= 0.0:
+            x = np.array([c, s, t, 0.0])
+            limit = 16 * U * max(1.0, abs(t)) / max(abs(first[2]), abs(second[2]))
+            for equation in (first, second):
+                assert abs(equation[:4] @ x - equation[4]) <= limit

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -175,3 +176,37 @@ def test_a_sweep_of_another_point_is_named():
     assert [str(one.message) for one in caught] == [words]
     assert found.warnings == (words,)
     assert str(found).endswith(words)
+
+
+@pytest.mark.parametrize(("name", "poses"), EVERY)
+def test_a_sweep_of_a_point_a_millimetre_away_is_named_and_noise_is_not(name, poses):
+    """Noise of 0.05 mm and 0.05 mrad: the axes tell the point within 0.1 mm."""
+    true = ARMS[name]
+    joint = 1
+    held = HELD[: true.dof]
+    rng = np.random.default_rng(7)
+    sweeps = sweep_all(true, held, noise=5e-5, rng=rng, poses=poses, count=20)
+    assert from_circles(sweeps).warnings == ()
+    moved = true.retooled(pk.se3.pose(np.eye(3), [0.0, 6e-4, 8e-4]))
+    q = sweeps[joint].q
+    measured = noisy(moved.fk(q), 5e-5, rng, poses)
+    sweeps[joint] = JointSweep(joint, q, measured)
+    with pytest.warns(pk.PoekinWarning, match=r"its point is") as caught:
+        from_circles(sweeps)
+    (words,) = (str(one.message) for one in caught)
+    found = re.fullmatch(
+        r"sweep of joint 1: its point is (\S+) mm from that of the others: .*", words
+    )
+    assert found
+    assert float(found[1]) == pytest.approx(1.0, abs=0.3)
+
+
+def test_where_the_other_joints_stand_elsewhere_uncertain_axes_are_no_fault_of_a_sweep():
+    """Then each axis moves the points of the sweeps apart, by more than the noise of one."""
+    rng = np.random.default_rng(11)
+    for _ in range(10):
+        sweeps = []
+        for joint in range(UR5.dof):
+            q = swept(UR5, joint, rng.uniform(-1.5, 1.5, UR5.dof), half=0.5)
+            sweeps.append(JointSweep(joint, q, noisy(UR5.fk(q), 2e-5, rng, False)))
+        assert from_circles(sweeps).warnings == ()

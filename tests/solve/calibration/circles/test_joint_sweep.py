@@ -84,6 +84,13 @@ BAD = {
             "within 0.0001"
         ),
     ),
+    "two others moved": (
+        lambda: JointSweep(2, also(4, 0.01) + also(1, 0.02) - Q, P), InputError,
+        (
+            "sweep of joint 2: joint 1 moved, too, by 0.02 (rad or m); expected all others to stand "
+            "within 0.0001"
+        ),
+    ),
     "degrees": (
         lambda: JointSweep(2, np.rad2deg(Q) * [0, 0, 1, 0, 0, 0], P), InputError,
         "sweep of joint 2: its readings span 115 rad: are they in degrees?",

@@ -124,6 +124,16 @@ def test_covariances_count_where_every_measurement_has_one():
     assert both.metrics == without.metrics
 
 
+def test_candidates_at_their_limits_are_candidates():
+    q = np.array([[-2.0, 1.0], [2.0, -1.0]])
+    given, rows = drawing.parse_candidates(ARM, q, 0, ())
+    assert np.array_equal(given, q)
+    assert rows.tolist() == [0, 1]
+    for beyond in np.nextafter(q, 2 * q):
+        with pytest.raises(InputError, match=r"candidates\[0\].*is outside its limits"):
+            drawing.parse_candidates(ARM, [beyond], 0, ())
+
+
 FUNCTION = (
     "expected a function of q (N, m) and T (N, 4, 4) that says which are allowed, such as WorkspaceBox or "
     "ViewCone, or a list of them, got "

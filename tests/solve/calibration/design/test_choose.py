@@ -439,3 +439,11 @@ def test_where_nothing_is_said_a_hundred_random_choices_are_drawn_by_the_seed_0(
         same.random_best,
     )
     assert found.random_median != other.random_median
+
+
+def test_the_metrics_count_the_configurations_that_were_measured_before():
+    seen = shows(0, 1, 2)
+    found = design_metrics(seen._replace(before=seen.blocks[:1]), np.arange(3))
+    # sums of squares 4, 2 and 2 over 3 + 1 configurations: O1 = (2 √2 √2)^(1/3) / √4
+    expected = 4 ** (1 / 3) / 2
+    assert found[0] == pytest.approx(expected, rel=1e-12)

@@ -52,6 +52,13 @@ def test_the_target_is_within_the_half_angle_of_the_axis_and_between_near_and_fa
     assert 0 < expected.sum() < len(T)
 
 
+def test_near_and_far_are_distances_at_which_it_sees():
+    eye = np.eye(4)[None]
+    for near, far, seen in ((1, 1, True), (0, 1 - 1e-9, False), (1 + 1e-9, 2, False)):
+        cone = ViewCone([0, 0, -1], [0, 0, 1], 0.1, near=near, far=far)
+        assert cone(Q[:1], eye).tolist() == [seen]
+
+
 def test_a_target_that_faces_away_is_not_seen():
     apex = np.array([2.0, 0.0, 0.0])
     cone = ViewCone(apex, [-1, 0, 0], np.pi, normal=[0, 0, 5], acceptance=0.9)

@@ -153,9 +153,3 @@ def test_a_terminal_shows_all_forms_and_what_is_held(of_one_point, of_board):
     lines = str(of_board).split("\n")
     assert held in lines
     assert "T_base_board, to be typed in (± 95 %):" in lines
-
-
-def test_a_number_that_rounds_to_nothing_has_no_sign():
-    number = pendant.TypedNumber("x", -1e-9, 2e-6, "m", False)
-    assert str(number) == "x 0.000000 ± 0.000002"
-    assert str(number._replace(held=True)) == "x 0.000000 held"

@@ -267,3 +267,15 @@ def test_of_lengths_whose_place_cannot_be_found_no_more_is_claimed(monkeypatch):
         "the nominal arm is off by 2 m (median), the calibrated one by 10 mm: is it this arm, "
     )
     assert remarks == ()
+
+
+def test_a_set_is_named_by_its_number_where_there_are_several():
+    sets = [Distances([1.0]), Distances([2.0, 3.0])]
+    assert explanation.set_name(sets, 1, "the") == "measurement set 1 (Distances)"
+    assert explanation.set_name(sets[1:], 0, "these") == "these Distances"
+
+
+def test_distances_have_their_base_moved_by_how_far_their_centre_is():
+    known = Distances([1.0], centre=[1.0, 2.0, 3.0])
+    assert explanation._base(known, np.array([4.0, 6.0, 3.0])) == Size(5.0)
+    assert explanation._base(Distances([1.0]), np.zeros(3)) is None

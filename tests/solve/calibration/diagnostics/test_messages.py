@@ -103,10 +103,47 @@ def test_coordinates_that_did_not_change_are_told_beside_what_is_unseen(column, 
 
 def test_a_list_names_eight_and_counts_the_rest():
     names = [f"j{k}" for k in range(1, 11)]
+    assert _list([]) == ""
     assert _list(names[:1]) == "j1"
     assert _list(names[:2]) == "j1 and j2"
     assert _list(names[:8]) == "j1, j2, j3, j4, j5, j6, j7 and j8"
     assert _list(names[:9]) == "j1, j2, j3, j4, j5, j6, j7, j8 and 1 more"
+    assert _list(2 * names[:9]).endswith(", j8 and 10 more")
     assert _list(names) == "j1, j2, j3, j4, j5, j6, j7, j8 and 2 more"
     assert _list(["a\x1b" + "x" * 70, "b"]) == _list(["a\x1b" + "x" * 70]) + " and b"
     assert len(_list(["x" * 70])) <= 60
+
+
+def test_an_arm_of_one_joint_is_called_by_it_and_frames_stand_beside_an_arm():
+    one: Any = problem(*ARM[:2], *BOARD)
+    (words,) = directions(one, together(0, 2, size=3)[:, None])
+    assert words.startswith(
+        "a combined change of a and T_base_board that cancels out: T_base_board"
+    )
+    made: Any = problem(*ARM, *HOME, Parameter("where", "turn", "rad"))
+    made.model.parameters = [*ARM, *HOME]
+    made.frame_names = ["where"]
+    (words,) = directions(made, together(0, 2, 4, 6, 7)[:, None])
+    assert words == (
+        "a combined change of the arm as a whole and where that cancels out: where may move, the "
+        "arm does not"
+    )
+
+
+def test_what_stands_still_is_told_at_the_end():
+    q = np.array([[0.0, 1, 2], [1, 1, 3]])
+    N = np.column_stack([together(0, size=6), together(2, 4, size=6)])
+    assert unobserved(problem(*ARM, q=q), N, np.zeros((6, 0))) == [
+        "a: tilt",
+        "a combined change of b and c that cancels out (qb is the same in all readings)",
+    ]
+
+
+@pytest.mark.parametrize(("length", "whole"), [(60, True), (61, False)])
+def test_names_of_more_than_sixty_characters_are_shortened(length, whole):
+    name = length * "x"
+    made = problem(Parameter(name, "tilt", "rad"), Parameter(name, "shift", "m"))
+    (words,) = directions(made, together(0, size=2)[:, None])
+    assert (words == f"{name}: tilt") == whole
+    assert len(words) <= 60 + len(": tilt")
+    assert (_list([name]) == name) == whole

@@ -21,6 +21,13 @@ def rotations(seed: int, count: int = 20) -> np.ndarray:
     return so3.exp(np.random.default_rng(seed).normal(size=(count, 3)))
 
 
+def test_no_grid_is_coarser_than_whole_units():
+    tens = np.deg2rad([10.0, -20.0, 70.0])
+    assert getattr(angle_grid(tens), "places", None) == 0
+    assert getattr(angle_grid(np.array([10.0, 20.0])), "symbol", None) == "rad"
+    assert getattr(length_grid(np.array([0.01, 0.1])), "places", None) == 0
+
+
 @given(places=st.integers(0, MOST), seed=st.integers(0, 99))
 def test_decimals_of_angles_in_degrees_or_radians_and_of_millimetres_are_found(places, seed):
     drawn = np.random.default_rng(seed).uniform(-180, 180, (20, 6))
@@ -56,6 +63,9 @@ PRINTED = {
     "matrix": lambda R, places: R.round(places + 4),
 }
 
+# sqrt(6), sqrt(3) and 3 / sqrt(2)
+FACTORS = {"roll, pitch, yaw": 6**0.5, "rotation vector": 3**0.5, "matrix": 4.5**0.5}
+
 
 @pytest.mark.parametrize("what", PRINTED)
 @given(places=st.integers(2, 5), seed=st.integers(0, 99))
@@ -65,6 +75,7 @@ def test_rotations_turn_by_no_more_than_the_radius_of_their_grid(what, places, s
     found = rotation_grid(printed)
     assert found is not None
     assert found.what == what
+    assert found.radius == pytest.approx(FACTORS[what] * found.grid.half)
     turned = np.linalg.norm(so3.log(R @ np.swapaxes(printed, 1, 2)), axis=1)
     # the radius is of first order: a rounding of h adds h^2
     assert turned.max() <= found.radius * (1 + 4 * found.grid.half)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from poekin.errors import InputError, PoseError, ShapeError, escape_unprintable
 from poekin.formats.rpy import pose
 from poekin.groups import rpy, se3, so3
 from poekin.solve.calibration import Poses, from_fk, simulated
+from poekin.solve.calibration.exact import other_readings
 
 README = pk.ur.add_deltas(
     pk.dh.published("ur10e"),
@@ -317,6 +320,25 @@ def test_pairs_of_no_such_arm_are_refused_with_what_would_explain_them(case):
     assert message.endswith(end)
 
 
+def test_parameters_that_are_seen_are_counted_of_all_that_there_are():
+    with pytest.raises(InputError, match=r"^these pairs identify (\d+) of 30 param") as caught:
+        from_fk(UR10E, *ENDS["still"][:2])
+    assert int(str(caught.value).split()[3]) < 30
+
+
+def test_a_quarter_of_the_pairs_may_stand_out():
+    def said(odd: int, count: int = 8) -> str:
+        errors = np.where(np.arange(count) < odd, 1.0, 1e-6)
+        after = SimpleNamespace(length=errors, angle=errors)
+        found: Any = SimpleNamespace(after=after, nominal=UR10E)
+        return other_readings.odd_pairs(found, count)
+
+    assert said(2) == (
+        "; pairs 0, 1 stand out (rows of q, from 0), the others fit better without them"
+    )
+    assert said(0) == said(3) == ""
+
+
 def test_a_long_name_is_cut_in_what_would_explain_the_pairs():
     name = "w" * 50
     q_names = [*UR10E.q_names[:5], name]
@@ -355,3 +377,10 @@ def test_planted_digits_beyond_those_that_are_there_break_the_bound():
     found = from_fk(UR10E, in_degrees(q, 3), printed(TRUE_UR10E.fk(q), 3, 3))
     error = np.abs(found.chain.screws - TRUE_UR10E.screws)
     assert not (error <= found.screw_bounds / 100).all()
+
+
+def test_a_pair_more_is_needed_than_the_parameters_have_sixes():
+    q = IIWA.random(0, 5)
+    words = "5 pairs for 34 parameters: at least 6 are needed, and "
+    with pytest.raises(InputError, match=words):
+        from_fk(IIWA, q, IIWA.fk(q))

@@ -147,6 +147,7 @@ def test_measurements_that_are_all_zero_are_said_to_be_flat():
     (0.2, [0.3, 0.21, 0], None),
     (0.25, [0.3, 0.3, 0], r"no two frames fit: they leave 0\.25 rad between the measured rotations and the arm's"),
     (0.25, [0.3, 0.19, 0], "it was turned about one axis only"),
+    (0.25, [0.3, 0.2, 0], "it was turned about one axis only"),
 ])  # fmt: skip
 def test_a_hand_has_to_turn_about_two_axes_by_more_than_the_rotations_scatter(
     scatter, turns, words, monkeypatch

@@ -42,7 +42,7 @@ def bent(second: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
         return [(A @ p + b + np.array([second, 0, 0, 0, 0]) * (p @ p) / 2)[:, None]]
 
     problem: Any = type("Problem", (), {"errors": staticmethod(errors)})
-    noise: Any = type("Noise", (), {"whitened_errors": staticmethod(lambda k, e: e)})
+    noise: Any = type("Noise", (), {"stacked": staticmethod(lambda e: e[0].ravel())})
     objective = minimising._Objective(problem, noise, "linear", np.zeros(2), np.eye(2))
     Q, R = np.linalg.qr(A)
     linear = _Linear(R, Q.T @ b)

@@ -196,6 +196,11 @@ def test_errors_are_whitened_by_their_spreads_or_their_covariance():
     assert noise.whitened(0, ones)[1, :, 0] == pytest.approx([1 / 2] * 3 + [1 / 5] * 3)
     assert noise.whitened(1, ones[:, :3])[0, :, 0] == pytest.approx([1 / 4] * 3)
     assert noise.whitened(2, ones)[1, :, 0] == pytest.approx(1 / np.arange(1, 7))
+    spreads = ([2.0] * 3 + [5.0] * 3, [4.0] * 3, np.arange(1.0, 7.0))
+    for k, spread in enumerate(spreads):
+        white = np.array([0.5, -3.0])[:, None] * np.ones(len(spread))
+        assert noise.unwhitened(k, white) == pytest.approx(white * spread)
+        assert noise.whitened_errors(k, white * spread) == pytest.approx(white)
 
 
 def test_spreads_are_not_estimated_from_no_more_numbers_than_parameters():

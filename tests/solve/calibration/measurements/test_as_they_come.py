@@ -88,7 +88,7 @@ def test_roll_pitch_yaw_need_no_format(unit, file):
 
 def test_rx_ry_rz_are_never_guessed_and_a_format_takes_them_for_a_rotation_vector(file):
     path = file("q1,q2,x,y,z,rx,ry,rz\n0,0,1,2,3,0.1,0.2,0.3\n")
-    with pytest.raises(InputError, match="make a pose of 'ur', 'staubli', 'yaskawa': format="):
+    with pytest.raises(InputError, match=r"make a pose of 'rotvec' \(a rotation vector, m and"):
         read(path, ARM)
     _, poses = read(path, ARM, format="rotvec")
     np.testing.assert_allclose(poses.T[0, :3, :3], pk.so3.exp([0.1, 0.2, 0.3]), atol=1e-15)  # type: ignore[attr-defined]

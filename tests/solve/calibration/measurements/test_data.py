@@ -300,7 +300,7 @@ POSE = f"q1,{T_COLUMNS}"
             "q1,x1,y1,z1,x2,y2,z2\n1,2,3,4,5,6,7\n",
             {},
             InputError,
-            "points: the file has 2 points a line; say where they are in the tip frame, (k, 3)",
+            "points: the file has 2 points a line; say where they are in the tip frame, (k, 3), or points=None",
         ),
         (
             "q1,distance\n1,2\n",

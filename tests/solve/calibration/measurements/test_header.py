@@ -98,9 +98,11 @@ REFUSED = {
         "{}:1: the header says that 'q1' is in rad, and it was said to be in deg; leave one of the two out"),
     "a joint in mm": ("q1 [mm],q2,X,Y,Z,A,B,C", {"format": "abc"}, InputError, "{}:1: 'q1' in mm; expected rad or deg"),
     "a column of another format": ("q1,q2,X,Y,Z,W,P,R", {"format": "abc"}, InputError,
-        "{}:1: the columns X Y Z W P R make a pose of 'fanuc': format= (--format) says of which"),
+        "{}:1: the columns X Y Z W P R make a pose of 'fanuc' (angles, mm and deg): format= (--format) "
+        "says of which"),
     "no format": ("q1,q2,x,y,z,w,p,R [deg],time", {}, InputError,
-                  "{}:1: the columns X Y Z W P R make a pose of 'fanuc': format= (--format) says of which"),
+                  "{}:1: the columns X Y Z W P R make a pose of 'fanuc' (angles, mm and deg): format= (--format) "
+        "says of which"),
     "numbers, two of them alike": ("0.5,0,0,1", {}, InputError,
                                    "{}:1: a first line that names the columns expected, it has numbers alone"),
     "a column more": ("q1,q2,X,Y,Z,time", {}, UnknownName,

@@ -90,18 +90,21 @@ def test_two_devices_that_see_one_plate_have_its_points_in_common():
     )
 
 
-def test_a_device_and_points_are_guessed_in_spite_of_outliers():
-    p = seen(T, device=DEVICE)
-    p[::5] += np.random.default_rng(0).uniform(-0.5, 0.5, (8, 3, 3))
+# 12 numbers of the device's frame and 3 of each point, by 3 of each point of a measurement
+@pytest.mark.parametrize("count, least", [(1, 5), (2, 3), (3, 3), (4, 2)])
+def test_a_device_and_points_are_guessed_in_spite_of_outliers(count, least):
+    points = np.array([*TOOL, [0.0, 0.1, -0.1]])[:count]
+    p = seen(T, points, device=DEVICE)
+    p[::5] += np.random.default_rng(0).uniform(-0.5, 0.5, (8, count, 3))
     X, y = device_and_points(T, p)
     np.testing.assert_allclose(X, DEVICE, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(y, TOOL, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(y, points, rtol=0, atol=1e-12)
     message = (
-        r"^an initial guess of a device's frame and of points of the tool needs 3 measurements or more, "
-        r"got 2$"
+        r"^an initial guess of a device's frame and of points of the tool needs "
+        rf"{least} measurements or more, got {least - 1}$"
     )
     with pytest.raises(InputError, match=message):
-        device_and_points(T[:2], p[:2])
+        device_and_points(T[: least - 1], p[: least - 1])
 
 
 def test_residuals_are_in_base_axes_and_at_the_points():

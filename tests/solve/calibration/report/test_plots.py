@@ -86,6 +86,20 @@ def test_residuals_are_shown_in_mm_and_mrad_over_the_share_that_is_no_larger(dra
     assert figure.legends[0]._ncols == 3
 
 
+def test_a_third_curve_is_dotted_and_as_legible(drawn):
+    plots.residuals([NamedResiduals(name, residuals([1e-3, 2e-3])) for name in "abc"])
+    third = drawn[0].axes[0].lines[2]
+    assert (third.get_linestyle(), third.get_label()) == (":", "c")
+
+
+def test_small_uncertainties_of_any_number_of_configurations_fill_the_picture(drawn):
+    plots.uncertainty(np.full(30, 0.5e-3), np.full(30, 0.2e-3))
+    for axes, value in zip(drawn[0].axes, (0.5, 0.2), strict=True):
+        assert axes.get_xlim() == pytest.approx((0, 1.05 * value))
+        assert axes.lines[0].get_xdata() == pytest.approx([value] * 2, rel=1e-9)
+        assert sum(bar.get_height() for bar in axes.patches) == pytest.approx(100)
+
+
 def test_where_nothing_turns_no_rotations_are_shown(drawn):
     mixed = NamedResiduals("b", residuals([1e-3, 2e-3], [np.nan, 5e-3]))
     plots.residuals([NamedResiduals("a", residuals([1e-3]))])

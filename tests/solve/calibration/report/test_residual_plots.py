@@ -86,9 +86,15 @@ def test_panels_share_their_scale_and_show_means_with_their_errors(drawn_figures
     assert [a.get_ylabel() for a in axes[:4]] == ["mm", "", "", "mm"]
     assert axes[0].get_shared_y_axes().joined(axes[0], axes[3])
     dots = axes[1].lines[0]
-    assert len(dots.get_xdata()) == 120
+    shown = np.asarray(dots.get_xdata(), float)
+    some = x[np.isfinite(y)]
+    assert (len(shown), shown[0], shown[-1]) == (120, some[0], some[-1])
+    for line in (*axes[1].lines, *axes[1].get_ygridlines()):
+        assert 0.5 <= line.get_linewidth() <= 1.5
     assert dots.get_color() == svg.PALE
     means, _, (bars,) = axes[1].containers[0]
+    assert 0.5 <= min(bars.get_linewidths()) <= max(bars.get_linewidths()) <= 1.5
+    assert 1.5 <= dots.get_markersize() < means.get_markersize() <= 4
     known = np.flatnonzero(np.isfinite(y))
     parts = np.array_split(known[np.argsort(x[known])], 8)
     np.testing.assert_allclose(
@@ -100,6 +106,14 @@ def test_panels_share_their_scale_and_show_means_with_their_errors(drawn_figures
     errors = [2 * np.std(2 * y[part], ddof=1) / np.sqrt(len(part)) for part in parts]
     lengths = [np.ptp(segment[:, 1]) / 2 for segment in bars.get_segments()]
     np.testing.assert_allclose(lengths, errors)
+
+
+def test_two_residuals_are_enough_for_a_mean_with_its_error(drawn_figures):
+    x = np.arange(11.0)
+    residual_plots.drawn(residual_plots.Picture([residual_plots.Panel(x, x**2, "few")], "words"))
+    means, _, _ = drawn_figures[0].axes[0].containers[0]
+    # eight parts of eleven: three of two, five of one
+    np.testing.assert_array_equal(means.get_xdata(), [0.5, 2.5, 4.5])
 
 
 def test_one_residual_has_a_picture_too(drawn_figures):

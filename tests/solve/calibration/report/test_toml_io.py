@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import re
 import sys
-from dataclasses import fields, replace
+from dataclasses import fields
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from poekin.errors import FileError, MissingExtra, ModelError, PoekinError
 from poekin.groups import se3
 from poekin.solve.calibration import Parameter, Poses, Term, calibrate, load
 from poekin.solve.calibration.measurements.simulated import simulated
+from poekin.solve.calibration.report import toml_checks
 
 SCREWS = [
     pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([0, 0.6, 0.8]),
@@ -43,6 +46,7 @@ RIPPLE = Term(
     (Parameter("joint1", "ripple", "rad"),),
     lambda q, conditions: np.sin(9 * q[..., None]),
 )
+MASSES = np.column_stack([[3.0, 2, 2, 1, 1], np.linspace(-0.3, 0.5, 15).reshape(5, 3)])
 CONDITIONS = {"payload": np.linspace(0, 3, 60), "gravity": [0.0, 1, -1], "time": np.arange(60.0)}
 
 
@@ -62,13 +66,28 @@ def case(name):
     if name == "terms":
         q = ARM.random(0, 60)
         kinds = ("home", "compliance", "backlash", RIPPLE)
-        return calibrate(ARM, q, ARM.fk(q), parameters=kinds, conditions=CONDITIONS, folds=3)
+        arm = ARM.replace(masses=MASSES)
+        return calibrate(arm, q, arm.fk(q), parameters=kinds, conditions=CONDITIONS, folds=3)
+    if name == "sags":
+        q = ARM.random(1, 40)
+        x = q + 1e-3 * np.sin(2 * q) * [0, 0, 1, 0, 0]
+        p = ARM.fk(x)[:, :3, 3] + np.random.default_rng(0).normal(scale=1e-5, size=(40, 3))
+        return calibrate(ARM, q, p, folds=0, on_rank_deficiency="fix")
     kind, _, unknown = name.partition(" ")
     s = simulated(ARM, 40, kind=kind, outliers=0.1, unknown=bool(unknown))
     return calibrate(ARM, s.q, s.measurements, loss="huber", folds=2, on_rank_deficiency="fix")
 
 
-NAMES = ["poses", "eye-in-hand", "points unknown", "distances unknown", "coupled", "pitch", "terms"]
+NAMES = [
+    "poses",
+    "eye-in-hand",
+    "points unknown",
+    "distances unknown",
+    "coupled",
+    "pitch",
+    "terms",
+    "sags",
+]
 
 
 @pytest.fixture(scope="module", params=NAMES)
@@ -104,13 +123,49 @@ def test_a_calibration_comes_back_to_the_last_bit(found, tmp_path):
         if field.name not in ("error_model", "residuals", "evidence"):
             assert same(getattr(found, field.name), getattr(again, field.name)), field.name
     assert again.error_model.parameters == found.error_model.parameters
-    assert str(again) == str(replace(found, residuals=None, evidence=None))
+    assert str(again) == str(found)
+    assert again.to_dict() == found.to_dict()
+    assert same(again.diagnosis, found.diagnosis)
+    assert again.chain.masses is found.chain.masses is None or same(
+        again.chain.masses, found.chain.masses
+    )
     q = found.nominal.random(3, 4)
     np.testing.assert_array_equal(again.pose_covariance(q), found.pose_covariance(q))
     np.testing.assert_array_equal(again.true_joints(q), found.true_joints(q))
     assert again.error_model.reference == found.error_model.reference
     again.save(tmp_path / "again.toml")
     assert (tmp_path / "again.toml").read_text() == (tmp_path / "arm.toml").read_text()
+
+
+def test_what_the_residuals_showed_is_in_the_file_with_its_chance(tmp_path):
+    found = case("sags")
+    found.save(tmp_path / "arm.toml")
+    again = load(tmp_path / "arm.toml")
+    assert again.diagnosis is not None
+    findings = again.diagnosis.findings
+    assert findings[0].verdict == "the error of joint 3 (joint3) repeats with its angle"
+    assert findings[0].p < 1e-6
+    assert len(again.diagnosis.tests) > len(findings)
+    assert [frame.name for frame in again.tool_and_base] == ["base", "tool"]
+    text = (tmp_path / "arm.toml").read_text()
+    for old, new, message in (
+        ('kind = "angle"', 'kind = "sag"', "finding 1: kind: expected 'gravity', 'angle', 'lag'"),
+        ("against = false", "against = 1", "finding 1: against: expected true or false, got 1"),
+        ("    [\n        0.0,\n        0.0,\n        0.0,\n    ],\n]\n\n[[diagnosis", "]\n[[diagnosis",
+         "points: expected the points that were measured, got none"),
+    ):  # fmt: skip
+        assert old in text
+        (tmp_path / "bad.toml").write_text(text.replace(old, new, 1))
+        with pytest.raises(ModelError, match=re.escape(f"bad.toml: diagnosis: {message}")):
+            load(tmp_path / "bad.toml")
+
+
+def test_a_file_of_an_older_poekin_has_no_diagnosis(saved):
+    text = saved.read_text()
+    begin = text.index("[diagnosis]")
+    saved.write_text(text[:begin])  # it is the last of the file
+    assert load(saved).diagnosis is None
+    assert load(saved).tool_and_base == ()
 
 
 def test_a_term_of_ones_own_has_to_be_given_again(tmp_path):
@@ -380,3 +435,15 @@ def test_writing_without_tomli_w_names_the_extra(monkeypatch, tmp_path):
     ):
         case("pitch").save(tmp_path / "arm.toml")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_set_of_residuals_beyond_those_with_a_noise_is_told_with_both_numbers():
+    keys: Any = SimpleNamespace(fault=lambda name, words: ModelError(f"{name}: {words}"))
+    found: Any = SimpleNamespace(
+        noise_std=(None,), after=SimpleNamespace(set=np.array([0, 2])), outliers=()
+    )
+    with pytest.raises(ModelError) as caught:
+        toml_checks.check_sets(keys, found)
+    assert str(caught.value) == (
+        "after: expected sets below 1, as there is a [[noise_std]] for each, got 2"
+    )

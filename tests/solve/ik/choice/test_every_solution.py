@@ -14,6 +14,8 @@ from poekin.solve.ik.ik_problem import Settings, make_problem
 GIVEN = Settings("pose", None, True, 1e-9, 1e-9, None, None, 7, 30, 3, False)
 UR5 = pk.load("ur5").chain()
 PANDA = pk.load("panda").chain(tip="panda_hand")
+FIVE = pk.Chain.from_space(UR5.screws[:5], UR5.home, limits=UR5.limits[:5])
+EIGHT = pk.Chain.from_space([screw.prismatic([1, 0, 0]), *PANDA.screws], PANDA.home)
 
 
 def problem(arm, **options):
@@ -43,7 +45,8 @@ def test_solutions_are_those_of_ik_all_each_target_s_nearest_first_and_whole_tur
     (UR5, {}, True), (UR5, {"task": "position"}, False), (UR5, {"task": "direction"}, False),
     (PANDA, {}, False), (PANDA, {"lock": (("panda_joint7", 0.8),)}, True),
     (UR5.replace(pitches=np.full(6, 0.1)), {}, False),
-], ids=["pose", "position", "direction", "seven", "locked", "helical"])  # fmt: skip
+    (FIVE, {}, True), (EIGHT, {}, False),
+], ids=["pose", "position", "direction", "seven", "locked", "helical", "five", "eight"])  # fmt: skip
 def test_there_are_all_of_a_pose_by_an_arm_of_six_coordinates_that_no_search_is_needed_for(
     arm, options, known, monkeypatch
 ):

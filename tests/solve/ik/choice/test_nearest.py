@@ -91,3 +91,27 @@ def test_where_all_solutions_are_known_the_nearest_is_taken_and_else_the_better_
     other[1] = near[1]  # now the search's is nearer
     best, _ = nearest.nearest(made, T, numbers, anywhere, near)
     np.testing.assert_array_equal(best[1], other[1])
+
+
+def test_of_tries_the_nearest_is_taken_that_is_a_solution_within_the_limits(monkeypatch):
+    arm = ARM.chain.replace(limits=np.tile([-1.0, 1.0], (6, 1))).compile()
+    made = make_problem(arm, GIVEN._replace(task="position"))
+    ends = iter([
+        (np.full(6, 0.9), codes.SOLVED),
+        (np.full(6, 0.5), codes.SOLVED),  # within the limits, and nearer
+        (np.eye(6)[0] * 1.05, codes.SOLVED),  # nearer still, and beyond a limit
+        (np.zeros(6), codes.STALLED),  # no solution
+        (np.full(6, 0.6), codes.SOLVED),  # farther
+    ])  # fmt: skip
+
+    def solve(targets, indices, q0, *, restarts=None, limits=None):
+        end, state = next(ends, (np.ones(6), codes.STALLED))
+        info = np.zeros((1, codes.INFO))
+        info[:, codes.AT_STATE] = state
+        return end[None].copy(), info
+
+    monkeypatch.setattr(made, "solve", solve)
+    asked = np.eye(4)[None], np.zeros(1), np.full((1, 6), np.nan), np.zeros((1, 6))
+    best, info = nearest.nearest_of_tries(made, *asked)
+    assert best.tolist() == [[0.5] * 6]
+    assert info[0, codes.AT_STATE] == codes.SOLVED

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from poekin.solve.motion.trajectory.hermite import peaks, sample
@@ -38,7 +39,8 @@ def test_peaks_are_the_largest_of_dense_samples():
         np.testing.assert_allclose(acceleration[k], np.abs(spline(t, 2)).max(axis=0), rtol=1e-6)
 
 
-def test_a_rate_that_peaks_within_a_step_is_seen():
-    speed, acceleration = peaks(np.array([0.0, 2.0]), np.array([[0.0], [1.0]]), np.zeros((2, 1)))
-    np.testing.assert_allclose(speed, [[0.75]], rtol=1e-15)  # 1.5 / T
-    np.testing.assert_allclose(acceleration, [[1.5]], rtol=1e-15)  # 6 / T²
+@pytest.mark.parametrize("T", [2.0, 64.0])
+def test_a_rate_that_peaks_within_a_step_is_seen(T):
+    speed, acceleration = peaks(np.array([0.0, T]), np.array([[0.0], [1.0]]), np.zeros((2, 1)))
+    np.testing.assert_allclose(speed, [[1.5 / T]], rtol=1e-15)
+    np.testing.assert_allclose(acceleration, [[6 / T**2]], rtol=1e-15)

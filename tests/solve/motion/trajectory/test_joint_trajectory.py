@@ -47,6 +47,28 @@ def test_yaml_1_1_reads_names_and_numbers_as_they_are(write):
             assert not any(np.signbit(v) for v in point[key] if v == 0)
 
 
+def test_a_message_is_a_point_after_the_other_with_its_rates_and_time():
+    given = np.array([0.5, 2.25]), np.array([[0.5, -2.0], [3.0, 4.5]]), np.array([[6, 7], [8, 9.5]])
+    assert yaml_text(["a ~b", "b"], *given) == (
+        'joint_names: ["a ~b", "b"]\n'
+        "points:\n"
+        "- positions: [0.5, -2.0]\n"
+        "  velocities: [6.0, 7.0]\n"
+        "  time_from_start: {sec: 0, nanosec: 500000000}\n"
+        "- positions: [3.0, 4.5]\n"
+        "  velocities: [8.0, 9.5]\n"
+        "  time_from_start: {sec: 2, nanosec: 250000000}\n"
+    )
+    assert json_text(["a ~b", "b"], *given) == (
+        '{"joint_names": ["a ~b", "b"], "points": [\n'
+        '{"positions": [0.5, -2.0], "velocities": [6.0, 7.0], '
+        '"time_from_start": {"sec": 0, "nanosec": 500000000}},\n'
+        '{"positions": [3.0, 4.5], "velocities": [8.0, 9.5], '
+        '"time_from_start": {"sec": 2, "nanosec": 250000000}}\n'
+        "]}\n"
+    )
+
+
 def test_json_reads_the_same_message():
     given = rows(NUMBERS)
     text = json_text(NAMES, *given)

@@ -37,6 +37,14 @@ def test_between_the_points_it_is_the_cubic_of_the_time(trajectory):
     np.testing.assert_allclose(ddq, expected(t, 2), rtol=0, atol=1e-7)
 
 
+def test_its_accelerations_at_both_ends_are_those_of_the_first_step_and_the_last(trajectory):
+    spline = CubicHermiteSpline(trajectory.times, trajectory.q, trajectory.dq)
+    ends = np.array([0.0, trajectory.duration])
+    expected = spline(ends, 2)
+    assert np.abs(expected).max(axis=1).min() > 0.1
+    np.testing.assert_allclose(trajectory(ends).ddq, expected, rtol=1e-6)
+
+
 def test_before_and_after_it_rests_and_nan_stays_nan(trajectory):
     q, dq, ddq = trajectory([-1.0, trajectory.duration + 1, np.nan])
     np.testing.assert_array_equal(q[:2], Q[[0, -1]])
@@ -97,10 +105,10 @@ def test_a_script_samples_it_evenly_within_its_limits(trajectory, tmp_path):
 
 
 def test_the_cycle_and_the_servo_s_numbers_can_be_chosen(trajectory):
-    text = trajectory.to_urscript(step=0.002, lookahead=0.05, gain=500)
-    assert text.count(", 0, 0, 0.002, 0.05, 500.0)") == int(
-        np.ceil((trajectory.duration + 0.05) / 0.002)
-    )
+    for count in (200, 201):
+        step = (trajectory.duration + 0.05) / (count - 0.5)
+        text = trajectory.to_urscript(step=step, lookahead=0.05, gain=500)
+        assert text.count(f", 0, 0, {step!r}, 0.05, 500.0)") == count
 
 
 @pytest.mark.parametrize(
@@ -118,6 +126,12 @@ def test_the_cycle_and_the_servo_s_numbers_can_be_chosen(trajectory):
 def test_numbers_that_no_servo_takes_are_refused(trajectory, options, says):
     with pytest.raises(InputError, match=f"^{re.escape(says)}$"):
         trajectory.to_urscript(**options)
+
+
+@pytest.mark.parametrize(("lookahead", "gain"), [(0.03, 2000), (0.2, 100)])
+def test_the_ends_of_a_servo_s_ranges_are_taken(trajectory, lookahead, gain):
+    text = trajectory.to_urscript(lookahead=lookahead, gain=gain)
+    assert f", 0.008, {lookahead}, {gain:.1f})" in text
 
 
 @pytest.mark.parametrize("name", ["t.txt", "t", "t.npy", "csv"])

@@ -121,6 +121,9 @@ def test_models_that_agree_have_no_factor():
         made = exaggerated(pk.compare(ARM, b))
         assert (made.factor, made.chain.dof) == (1.0, 7)
         assert made.bodies == (*range(8), 7)
+        assert made.axes == tuple(range(7))
+        assert made.moves.shape == (8, 6)
+        assert not made.moves.any()
 
 
 def test_a_longer_link_takes_the_tool_along():

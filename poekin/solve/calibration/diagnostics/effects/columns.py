@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .....errors import escape_unprintable
 from .....groups import se3
@@ -38,13 +38,6 @@ class Effect(NamedTuple):
     kind: EffectKind
     whose: str
     columns: Array
-
-
-class SetNumbers(NamedTuple):
-    """Rows of q of a set of measurements, and its numbers among all."""
-
-    rows: NDArray[np.integer]
-    numbers: slice
 
 
 def effects(
@@ -124,15 +117,10 @@ def _strains(
     return found
 
 
-def parts(problem: Problem) -> list[SetNumbers]:
+def parts(problem: Problem) -> list[slice]:
     """Places of the errors of each set among all."""
-    found = []
-    begin = 0
-    for s, rows in zip(problem.sets, problem.rows, strict=True):
-        end = begin + len(s) * s.width
-        found.append(SetNumbers(rows, slice(begin, end)))
-        begin = end
-    return found
+    ends = itertools.accumulate((len(s) * s.width for s in problem.sets), initial=0)
+    return list(itertools.starmap(slice, itertools.pairwise(ends)))
 
 
 def _of_sets(
@@ -144,7 +132,7 @@ def _of_sets(
         return
     for k, part in enumerate(parts(problem)):
         columns = np.zeros_like(base)
-        columns[part.numbers] = base[part.numbers]
+        columns[part] = base[part]
         yield Effect("set", f"measurement set {k} ({problem.sets[k].what})", columns)
 
 
@@ -156,12 +144,13 @@ def _of_reflectors(
     total = problem.n_equations
     for k, part in enumerate(parts(problem)):
         s = problem.sets[k]
-        if not isinstance(s, Points) or len(s.points) == 1:
+        count = s.width // 3
+        if not isinstance(s, Points) or count < 2:
             continue
         shifts = fit.noise.whitened(k, point_shifts(problem, fit.p, k))
-        for j in range(len(s.points)):
+        for j in range(count):
             columns = np.zeros((total, 3))
-            columns[part.numbers] = shifts[..., 3 * j : 3 * j + 3].reshape(-1, 3)
+            columns[part] = shifts[..., 3 * j : 3 * j + 3].reshape(-1, 3)
             yield Effect("reflector", reflector_name(problem, k, j), columns)
 
 
@@ -183,8 +172,9 @@ def point_shifts(
     """Changes (N, 3k, 3k) of the errors of set k of points, where each is moved in the tool's axes."""
     s = problem.sets[k]
     T = problem.poses(p)[problem.rows[k]]
-    for T_base_device in problem.frames_of_set(k, p):
-        T = se3.inverse(T_base_device) @ T
+    for frame in problem.frames_of_set(k, p):
+        if frame.ndim == 2:  # a device; the others are points
+            T = se3.inverse(frame) @ T
     R = rotation_part(T)
     count = s.width // 3
     of_points = np.einsum("ab,nij->naibj", np.eye(count), R)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from .....groups.arrays import Array
-from .....results import Result
+from .....results import Result, brief
 from ...fit.fitting import Fit
 from ...fit.losses import LossName
 from ...measurements.points import Distances, Points
@@ -62,6 +62,14 @@ class ResidualDiagnosis(Result):
 
 
 @dataclass(frozen=True, eq=False)
+class SavedEvidence:
+    """Diagnosis of a fit, and the points (k, 3) of the tool that were measured, out of a file."""
+
+    points: Array
+    diagnosis: ResidualDiagnosis
+
+
+@dataclass(frozen=True, eq=False)
 class FitEvidence:
     """A fit, and the conditions of its readings: what a diagnosis is made of, when it is asked for."""
 
@@ -69,6 +77,12 @@ class FitEvidence:
     fit: Fit
     loss: LossName
     conditions: Conditions
+
+    def __repr__(self) -> str:
+        count = sum(map(len, self.problem.sets))
+        return brief(
+            self, f"{count} measurements at {len(self.problem.q)} readings, {self.loss} loss"
+        )
 
     @cached_property
     def search(self) -> EffectSearch:
@@ -79,9 +93,13 @@ class FitEvidence:
     def points(self) -> Array:
         """Points (k, 3) of the tool that were measured, m; four for a pose."""
         found = []
-        for s in self.problem.sets:
+        for k, s in enumerate(self.problem.sets):
+            frames = self.problem.frames_of_set(k, self.fit.p)
             if isinstance(s, Points):
-                found.append(s.points)
+                unknown = [y for y in frames if y.ndim == 1]
+                found.append(np.array(unknown) if unknown else s.points)
+            elif not s.sees_arm:
+                continue
             elif isinstance(s, Distances):
                 found.append(s.point[None])
             else:

@@ -10,10 +10,8 @@ from numpy.typing import NDArray
 
 from .....groups.arrays import Array
 from ...fit.covariance import jackknife_meat
-from ...model.tsqr import blocked_product, qr_r
+from ...selection.spans import RANK, beside, column_sizes, directions_beside, spanned
 
-_RANK = 1e-8  # of the largest singular value: directions below are rounding
-_INDEPENDENT = 1e-6  # of a column's length: what of it is left beside others is rounding below
 _CONVERGED = 1e-15
 _TINY = 1e-300
 
@@ -44,11 +42,8 @@ def left_of(
     clusters: NDArray[np.intp] | None,
 ) -> Left:
     """Rest that a fit of these columns (M, P) leaves of errors (M,)."""
-    columns = _unit(fitted)
-    _, s, Vt = np.linalg.svd(qr_r(columns), full_matrices=False)
-    kept = s > _RANK * s[:1]
-    Q = blocked_product(columns, Vt[kept].T / s[kept])
-    return Left(_beside(Q, errors), Q, clusters)
+    Q, _ = spanned(fitted)
+    return Left(beside(Q, errors), Q, clusters)
 
 
 def coefficients(
@@ -56,8 +51,8 @@ def coefficients(
     errors: Array,
 ) -> Array:
     """Least squares (P,) of errors (M,), of columns of any sizes; those that are not told are 0."""
-    sizes = _sizes(columns)
-    z: Any = np.linalg.lstsq(columns / sizes, errors, rcond=_RANK)[0]
+    sizes = column_sizes(columns)
+    z: Any = np.linalg.lstsq(columns / sizes, errors, rcond=RANK)[0]
     return np.asarray(z / sizes, float)
 
 
@@ -71,10 +66,7 @@ def f_test(
     on each other in clusters, Hotelling's T^2 = s^T V^-1 s with the jackknife's covariance V.
     Source: Fisher 1924; Bell and McCaffrey 2002 for V, Pustejovsky and Tipton 2018 for the test.
     """
-    known = columns[:, np.any(columns, axis=0)]
-    rest = _beside(left.Q, _unit(known))
-    U, sizes, _ = np.linalg.svd(rest, full_matrices=False)
-    U = U[:, sizes > _INDEPENDENT]
+    U = directions_beside(left.Q, columns)
     d = U.shape[1]
     s = U.T @ left.e
     unexplained = left.e - U @ s
@@ -95,25 +87,6 @@ def f_test(
     T = float(s @ np.linalg.solve(V, s))
     F = T * freedom / (d * (count - 1))
     return Tested(U, s, f_survival(F, d, freedom))
-
-
-def _unit(columns: Array) -> Array:
-    return columns / _sizes(columns)
-
-
-def _sizes(columns: Array) -> Array:
-    sizes = np.linalg.norm(columns, axis=0)
-    return np.where(sizes > 0.0, sizes, 1.0)
-
-
-def _beside(
-    Q: Array,
-    columns: Array,
-) -> Array:
-    """The part of columns (M, ...) that is orthogonal to Q (M, k)."""
-    for _ in range(2):  # Gram-Schmidt is exact the second time
-        columns = columns - Q @ (Q.T @ columns)
-    return columns
 
 
 def f_survival(

@@ -44,45 +44,66 @@ class Reflectors:
     def tests(
         self,
         whitened: Array,
+        roots: Array,
         gone: Sequence[int],
     ) -> dict[int, EffectTest]:
-        """Test of each point but those that are loose, by whitened errors (M,); none where fewer than
-        three tell.
+        """Test of each point but those that are loose, by whitened errors (M,) and the roots (M,) of
+        their weights; none where fewer than three tell.
 
-        Source: F-test of two variances, exact for normal errors.
+        Source: F-test of two variances, exact for normal errors; where these scatter more at some
+        configurations than at others, by the effective degrees of freedom of Satterthwaite 1946.
         """
         if self.count - len(gone) < _LEAST:
             return {}
         e = whitened.reshape(len(self.errors), -1)
-        before, rank_before = self._left(e, gone)
+        weights = roots.reshape(e.shape)[:, 0] ** 2
+        counting = np.count_nonzero(weights)
+        firm = np.delete(e.reshape(len(e), -1, 3), gone, axis=1)
+        share = _effective(weights * np.sum(firm**2, axis=(1, 2)), firm[0].size)
+        before, rank_before = self._left(e, weights, gone)
         found = {}
         for j in range(self.count):
-            after, rank = self._left(e, [*gone, j])
+            after, rank = self._left(e, weights, [*gone, j])
             d = rank - rank_before
-            freedom = e.size - rank
+            freedom = e.shape[1] * counting - rank
             if j in gone or d == 0 or freedom == 0:
                 continue
             variance = max(after / freedom, np.finfo(float).tiny)
             F = (before - after) / d / variance
+            p = f_survival(F, share * d, share * freedom)
             size = rms(norms(self.errors[:, 3 * j : 3 * j + 3]))
-            found[j] = EffectTest("loose", self.names[j], f_survival(F, d, freedom), size)
+            found[j] = EffectTest("loose", self.names[j], p, size)
         return found
 
     def _left(
         self,
         e: Array,
+        weights: Array,
         loose: Sequence[int],
     ) -> tuple[float, int]:
-        """Sum of squares that motions of the tool and of these points leave of errors (N, d), and the
-        rank of these motions.
+        """Weighted sum of squares that motions of the tool and of these points leave of errors (N, d),
+        and the rank of these motions where there is a weight.
         """
         own = [3 * j + axis for j in loose for axis in range(3)]
         columns = np.concatenate([self._rigid, self._shifts[..., own]], axis=2)
         U, s, _ = np.linalg.svd(columns, full_matrices=False)
         kept = s > _RANK * s[:, :1]
         along = np.einsum("ndk,nd->nk", U, e) * kept
-        squares = float(np.sum(e**2) - np.sum(along**2))
-        return squares, int(kept.sum())
+        squares = np.sum(e**2, axis=1) - np.sum(along**2, axis=1)
+        return float(weights @ squares), int(kept[weights > 0.0].sum())
+
+
+def _effective(squares: Array, width: int) -> float:
+    """Part of the configurations that count, by their weighted squares (N,) of so many numbers: 1 where
+    all scatter alike, some 1 / N where nearly all is in one.
+
+    The mean of the squares' squares is 1 + 2 / width times that of their scales, for normal errors.
+    """
+    most = np.count_nonzero(squares)
+    alike = (
+        (1.0 + 2.0 / width) * np.sum(squares) ** 2 / max(np.sum(squares**2), np.finfo(float).tiny)
+    )
+    return min(float(alike) / max(most, 1), 1.0)
 
 
 def reflectors(
@@ -93,5 +114,5 @@ def reflectors(
     return {
         k: Reflectors(problem, fit, k)
         for k, s in enumerate(problem.sets)
-        if isinstance(s, Points) and len(s.points) >= _LEAST
+        if isinstance(s, Points) and s.width >= 3 * _LEAST
     }

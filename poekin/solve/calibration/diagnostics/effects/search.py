@@ -41,8 +41,10 @@ class EffectSearch:
         self._problem = problem
         self._fit = fit
         self._parts = parts(problem)
-        self._errors = self._whitened()
+        self._errors = fit.noise.stacked(problem.errors(fit.p))
         self._roots = self._weights(name)
+        # Tukey's loss has no weight where a reflector moved far
+        self._roots_of_loose = self._weights("linear" if name == "linear" else "cauchy")
         self._firm = np.ones(len(self._roots), bool)  # not of a loose reflector
         self._fitted = fit.jacobian
         self._explained = np.zeros_like(self._roots)
@@ -53,13 +55,6 @@ class EffectSearch:
         if self._length(self._weighted(self._errors)) > _ROUNDING:
             self._reflectors = reflectors(problem, fit)
             self._run(effects(problem, fit, conditions))
-
-    def _whitened(self) -> Array:
-        found = []
-        for k, errors in enumerate(self._problem.errors(self._fit.p)):
-            e = self._fit.noise.whitened_errors(k, errors)
-            found.append(e.ravel())
-        return np.concatenate(found)
 
     def _weights(
         self,
@@ -103,7 +98,7 @@ class EffectSearch:
             return
         k, j = effect
         self._gone.setdefault(k, []).append(j)
-        part = self._parts[k].numbers
+        part = self._parts[k]
         begin = part.start + 3 * j
         width = self._problem.sets[k].width
         for axis in range(3):
@@ -111,9 +106,13 @@ class EffectSearch:
 
     def _by_effects(self) -> Array:
         """Part (M,) of the errors that the effects explain, fitted together with all else."""
-        z = coefficients(self._weighted(self._fitted), self._weighted(self._errors))
+        z = self._coefficients()
         z[: self._fit.jacobian.shape[1]] = 0.0
         return self._fitted @ z
+
+    def _coefficients(self) -> Array:
+        """Least squares (P,) of the errors, of all that was fitted."""
+        return coefficients(self._weighted(self._fitted), self._weighted(self._errors))
 
     def _tests(
         self, every: Sequence[Effect]
@@ -125,8 +124,11 @@ class EffectSearch:
             if found is not None:
                 yield self._named(effect, columns, found), effect
         for k, points in self._reflectors.items():
-            e = (self._errors - self._explained)[self._parts[k].numbers]
-            for j, test in points.tests(e, self._gone.get(k, [])).items():
+            own = self._parts[k]
+            e = (self._errors - self._explained)[own]
+            for j, test in points.tests(
+                e, self._roots_of_loose[own], self._gone.get(k, [])
+            ).items():
                 yield test, (k, j)
 
     def _named(
@@ -169,7 +171,7 @@ class EffectSearch:
         squares = 0.0
         count = 0
         for k, s in enumerate(self._problem.sets):
-            own = whitened[self._parts[k].numbers].reshape(-1, s.width)
+            own = whitened[self._parts[k]].reshape(-1, s.width)
             lengths = self._fit.noise.unwhitened(k, own)[:, s.angular :]
             squares += float(np.sum(lengths * lengths))
             count += len(s) * max(1, lengths.shape[1] // 3)
@@ -179,15 +181,14 @@ class EffectSearch:
         """Mask (N,) of the outliers of each set beside the effects that were found: measurements that
         are off by more than one good one in 10^4 would be.
         """
-        z = coefficients(self._weighted(self._fitted), self._weighted(self._errors))
-        e = (self._errors - self._fitted @ z) * self._firm
+        e = (self._errors - self._fitted @ self._coefficients()) * self._firm
         of_kept = e[self._kept] * self._roots[self._kept]
         variance = float(of_kept @ of_kept) / max(len(of_kept) - self._fitted.shape[1], 1)
         found = []
         for s, part in zip(self._problem.sets, self._parts, strict=True):
-            rows = e[part.numbers].reshape(-1, s.width)
+            rows = e[part].reshape(-1, s.width)
             squares = np.sum(rows**2, axis=1)
-            width = np.count_nonzero(self._firm[part.numbers]) / len(s)
+            width = np.count_nonzero(self._firm[part]) / len(s)
             scale = variance if s.covariance is None else 1.0
             found.append(squares > scale * chi_square(width, OUTLIER))
         return found

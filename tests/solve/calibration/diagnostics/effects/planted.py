@@ -58,6 +58,15 @@ def made(planted, seed, points=POINTS):
     return q, p + rng.normal(scale=NOISE, size=p.shape)
 
 
+def gross(p, seed):
+    """Points (N, k, 3) with gross errors, 20 times the noise, in one configuration of 20."""
+    rng = np.random.default_rng([seed, 7])
+    p = p.copy()
+    bad = rng.random(len(p)) < 0.05
+    p[bad] += rng.normal(scale=20 * NOISE, size=p[bad].shape)
+    return p
+
+
 @cache
 def calibrated(planted, seed, count=3):
     """Calibration of the arm by `count` points of the tool."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from poekin.solve.calibration.diagnostics.effects import f_test as module
 from poekin.solve.calibration.diagnostics.effects.f_test import f_survival, f_test, left_of
 
 RNG = np.random.default_rng(4)
@@ -22,6 +23,44 @@ def test_the_chance_is_that_of_the_f_distribution(d, freedom):
         right = stats.f.sf(F, d, freedom)
         # SciPy's own is right to some 1e-11; both go below all floats
         assert f_survival(F, d, freedom) == pytest.approx(right, rel=1e-9, abs=1e-290)
+
+
+@pytest.mark.parametrize("d", [1, 2, 6])
+@pytest.mark.parametrize("freedom", [1, 3, 30])
+def test_the_continued_fraction_is_asked_where_it_converges_fast(d, freedom, monkeypatch):
+    asked = []
+
+    def kept(a, b, x):
+        asked.append((a, b, x))
+        return 0.5
+
+    monkeypatch.setattr(module, "_incomplete_beta", kept)
+    for F in np.geomspace(1e-2, 1e2, 400):
+        f_survival(F, d, freedom)
+    sides = {(a, b) for a, b, _ in asked}
+    assert sides == {(d / 2, freedom / 2), (freedom / 2, d / 2)}
+    for a, b, x in asked:
+        # where `_incomplete_beta` says that it wants it; rounding of 1 - x
+        assert x <= (a + 1) / (a + b + 2) + 1e-15
+
+
+class Counted(float):
+    """A number that counts what is multiplied by it: two products each turn of the fraction."""
+
+    products = 0
+
+    def __rmul__(self, other):
+        Counted.products += 1
+        return float(self) * other
+
+
+@pytest.mark.parametrize("a", [0.5, 1.5, 15_000.0])
+@pytest.mark.parametrize("b", [0.5, 6.0, 15_000.0])
+def test_the_continued_fraction_ends_where_it_has_converged(a, b, monkeypatch):
+    monkeypatch.setattr(Counted, "products", 0)
+    module._incomplete_beta(a, b, Counted((a + 1) / (a + b + 2)))
+    # turns grow as the root of the larger of a and b (Press et al. 1992, section 6.4)
+    assert Counted.products <= 2 * (20 + 2 * max(a, b) ** 0.5)
 
 
 def rest(*columns):

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from tests.solve.calibration.diagnostics.effects.planted import calibrated, diagnosis_of
+import poekin as pk
+from tests.solve.calibration.diagnostics.effects.planted import (
+    ARM,
+    POINTS,
+    calibrated,
+    diagnosis_of,
+    gross,
+    made,
+)
 
 FITS = 300
 NAMED = [
@@ -23,6 +31,18 @@ def test_false_alarms_are_no_more_than_their_level(count):
     )
     # 5 % of 300 are 15; more than 26 of them come once in 500 times
     assert alarms <= 26
+
+
+@pytest.mark.parametrize("loss", ["huber", "cauchy", "tukey"])
+def test_gross_errors_are_no_findings_of_a_robust_fit(loss):
+    alarms = 0
+    for seed in range(1000, 1060):
+        q, p = made("nothing", seed)
+        points = pk.calibration.Points(gross(p, seed), POINTS)
+        found = pk.calibrate(ARM, q, points, folds=0, on_rank_deficiency="fix", loss=loss)
+        alarms += bool(diagnosis_of(found).findings)
+    # 5 % of 60 are 3; more than 9 of them come once in 900 times
+    assert alarms <= 9
 
 
 @pytest.mark.parametrize(("planted", "count", "verdict"), NAMED)

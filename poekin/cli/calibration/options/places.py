@@ -7,13 +7,13 @@ from typing import Annotated
 import numpy as np
 from typer import Option
 
-from ...errors import InputError
-from ...groups.arrays import Array
-from ...solve.calibration.design.visibility import ViewCone, WorkspaceBox
-from ..formats.units import SaidUnits
-from ..kinematics import poses
-from . import measured as measured_files
-from .measured import MeasurementOptions
+from ....errors import InputError
+from ....groups.arrays import Array
+from ....solve.calibration.design.visibility import ViewCone, WorkspaceBox
+from ...formats.units import SaidUnits
+from ...kinematics.poses import option_numbers
+from .. import measured as measured_files
+from ..measured import MeasurementOptions
 
 BoxNumbers = Annotated[
     str | None,
@@ -87,7 +87,7 @@ def _numbers(
     count: int,
     what: str,
 ) -> Array:
-    values = poses.numbers(text.replace(",", " ").split(), f"{option}: number")
+    values = option_numbers(text, option)
     if len(values) != count:
         raise InputError(f"{option}: {count} numbers expected ({what}), got {len(values)}")
     return values

@@ -1,0 +1,1 @@
+"""Options that commands of calibration share: columns of files, and places."""
