@@ -66,7 +66,8 @@ def test_a_length_between_points_that_no_arm_carries_tells_no_point_of_the_tool(
 def test_the_tool_of_a_calibration_with_unknown_points_is_told():
     arm = pk.load("ur5").chain()
     made = pk.calibration.simulated(arm, 40, kind="points", points=[0.05, 0.03, 0.1], seed=3)
-    s = Points(made.measurements.p, points=None)
+    seen: Any = made.measurements
+    s = Points(seen.p, points=None)
     found = pk.calibrate(arm, made.q, s, folds=0, on_rank_deficiency="fix")
     assert found.evidence is not None
     np.testing.assert_array_equal(found.evidence.points, [found.frames["point 1"]])
