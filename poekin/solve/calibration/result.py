@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -57,25 +57,25 @@ class CalibrationData(Result):
     nominal: Chain
     chain: Chain
     parameters: tuple[Parameter, ...]
-    values: Array = field(repr=False)
-    covariance: Array = field(repr=False)
+    values: Array
+    covariance: Array
     frames: Mapping[str, Array]
     identification: Identification
     success: bool
-    steps: tuple[Step, ...] = field(repr=False)
-    before: Residuals = field(repr=False)
-    after: Residuals = field(repr=False)
-    cross_validation: CrossValidation | None = field(repr=False)
+    steps: tuple[Step, ...]
+    before: Residuals
+    after: Residuals
+    cross_validation: CrossValidation | None
     outliers: tuple[Outlier, ...]
     noise_std: tuple[NoiseEstimate | None, ...]
     loss: LossName
-    error_model: ErrorModel = field(repr=False)
+    error_model: ErrorModel
     warnings: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
     verdict: tuple[str, ...] = ()
-    residuals: ResidualVectors | None = field(default=None, repr=False)
+    residuals: ResidualVectors | None = None
     terms: tuple[TermGain, ...] = ()
-    evidence: FitEvidence | SavedEvidence | None = field(default=None, repr=False)
+    evidence: FitEvidence | SavedEvidence | None = None
 
     @property
     def diagnosis(self) -> ResidualDiagnosis | None:

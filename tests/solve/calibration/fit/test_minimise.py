@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -65,3 +66,52 @@ def test_a_step_bends_by_half_the_acceleration_of_the_errors_along_it(damping):
 
 def test_a_step_stays_straight_where_it_would_bend_by_more_than_three_eighths():
     assert bent(100.0, 0.0)[0].tolist() == [0.0, 0.0]
+
+
+def slow_search(start: float, wall: tuple[float, float] = (0.0, 0.0)) -> minimising.Minimum:
+    """Search of the errors x and 1 - 0.45 x^2, of which each step leaves 0.9 of x; between the walls
+    no step may end.
+    """
+
+    def errors(p: np.ndarray) -> list[np.ndarray]:
+        x = float(p[0])
+        if wall[0] < x < wall[1]:
+            return [np.full((1, 2), 1e3)]
+        return [np.array([[x, 1.0 - 0.45 * x * x]])]
+
+    def linearised(p: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+        return [(errors(p)[0], np.array([[[1.0], [-0.9 * p[0]]]]))]
+
+    s = SimpleNamespace(width=2, angular=0)
+    nominal = SimpleNamespace(nominal=SimpleNamespace(reach=1.0))
+    problem: Any = SimpleNamespace(
+        scale=np.ones(1), sets=[s], model=nominal, errors=errors, linearised=linearised
+    )
+    noise: Any = SimpleNamespace(
+        stacked=lambda every: every[0].ravel(),
+        squares=lambda every: [np.sum(every[0] ** 2, axis=1)],
+        whitened=lambda k, J: J,
+        whitened_errors=lambda k, e: e,
+    )
+    options = minimising.FitOptions("linear")
+    return minimising.minimise(problem, np.eye(1), noise, np.array([start]), options)
+
+
+def test_a_slow_search_goes_to_its_end_where_no_step_was_damped():
+    found = slow_search(0.5)
+    assert found.converged
+    assert all(step.damping == 0.0 for step in found.steps)
+    # the linear problem promises (0.1 x)^2 of a cost of 1: below 1e-10 of it from x = 1e-4 on
+    assert abs(found.p[0]) <= 1e-4
+
+
+def test_a_slow_search_that_was_damped_once_ends_where_steps_gain_nothing_beside_the_noise():
+    plain = slow_search(0.5).steps[0].step
+    landing = 0.5 - plain
+    found = slow_search(0.5, (landing - 0.01, landing + 0.01))
+    assert found.converged
+    assert len(found.steps) > 10
+    assert found.steps[0].damping > 0.0
+    assert 0.0 < found.steps[-1].damping < 1e-6
+    # a step from x gains 0.1 (1 - 0.9^2) x^2, less than 1e-4 from 0.07 on
+    assert 0.05 < abs(found.p[0]) < 0.08
