@@ -352,6 +352,15 @@ def test_a_tree_of_links_moves_as_the_products_of_their_transforms():
     np.testing.assert_allclose(found["d_tool"], T["d"] @ robot.tool.A, rtol=0, atol=ROUNDING)
 
 
+def test_a_link_has_one_of_its_own_before_it_only_where_more_follows_a_joint():
+    made = from_object(tree())
+    # behind the joint of "a" comes a constant, behind the first of "base" another joint
+    assert made.links == ("base_", "a", "b", "base", "d", "a_0", "base_0")
+    assert {(joint.parent, joint.child) for joint in made.joints} == {
+        ("base_", "a_0"), ("a_0", "a"), ("a", "b"), ("a", "base_0"), ("base_0", "base"), ("b", "d"),
+    }  # fmt: skip
+
+
 def test_a_tree_whose_links_miss_their_parent_is_refused():
     robot = tree()
     del robot.links[0]

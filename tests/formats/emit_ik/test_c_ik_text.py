@@ -64,6 +64,12 @@ def test_each_file_begins_with_the_same_words_and_has_room_for_all_branches(sour
     assert '#include "lift_ik.h"\n\n#include <math.h>\n' in source.source
 
 
+def test_what_the_header_does_not_declare_is_of_this_file_alone(source):
+    # Two arms in one program would otherwise be linked with each other's functions.
+    defined = re.findall(r"^(?!static )(?:const )?\w+ \**(\w+)\(", source.source, re.MULTILINE)
+    assert defined == ["lift_ik"]
+
+
 @pytest.mark.parametrize(("near", "outside"), [(None, "OUTSIDE"), (LIFT, "OUTSIDE_NEARBY")])
 def test_sizes_are_periods_then_reach_then_the_margin_that_is_let_in(near, outside):
     text = emit.c_ik(LIFT, near=near, name="lift").source
@@ -98,6 +104,19 @@ def test_targets_are_clear_of_double_solutions_and_the_last_is_away():
         found.T[-1] - home, 4 * PUMA.reach * np.outer(np.eye(4)[0], np.eye(4)[3]), atol=1e-14
     )
     assert found.solutions[-1].shape == (0, 6)
+
+
+@pytest.mark.parametrize(("count", "kept"), [(0, 1), (1, 0)])
+def test_where_solutions_meet_the_target_away_is_kept_only_if_it_has_none(count, kept, monkeypatch):
+    class Meeting:
+        """A form all of whose solutions meet in two."""
+
+        def branches(self, T):
+            return np.zeros((1, 3))
+
+    monkeypatch.setattr(ik_vectors, "solutions", lambda *_: np.zeros((count, 2)))
+    found = ik_vectors.targets(LIFT, Meeting(), np.array([2 * np.pi, 0.0]))  # type: ignore[arg-type]
+    assert len(found.T) == len(found.solutions) == kept
 
 
 def test_the_self_test_has_the_targets_counts_and_solutions_in_its_tables():

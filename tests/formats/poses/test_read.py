@@ -84,6 +84,17 @@ def test_a_text_is_the_poses_that_stand_in_it(case, tmp_path):
         np.testing.assert_array_equal(whole, found.reshape(-1, 4, 4))
 
 
+@pytest.mark.parametrize("format", ["kuka", "staubli", "ur"])
+def test_blocks_are_read_of_fanuc_s_files_alone(format):
+    texts = {
+        "kuka": "; P[1]{X 9, Y 9, Z 9, A 9, B 9, C 9}\n{X 1, Y 2, Z 3, A 4, B 5, C 6}",
+        "staubli": "// P[1]{9, 9, 9, 9, 9, 9}\n{1, 2, 3, 4, 5, 6}",
+        "ur": "# P[1]{9, 9, 9, 9, 9, 9}\np[1, 2, 3, 4, 5, 6]",
+    }
+    found = pk.poses.read(texts[format], format)
+    np.testing.assert_array_equal(found, pose([1, 2, 3, 4, 5, 6], format))
+
+
 def test_every_notation_has_a_text():
     held = {controller_text._SAME.get(f, f) for _, f, _ in TEXTS.values()}
     assert set(controller_text._PATTERNS) <= held

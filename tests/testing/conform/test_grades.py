@@ -53,6 +53,8 @@ def test_a_violation_carries_the_error_and_the_bound_of_the_grade_asked_for():
         assert (caught.value.error, caught.value.bound) == pytest.approx(
             (error, bound), rel=1e-12, abs=0
         )
-    with pytest.raises(LawViolation, match=r"fault = 'NaN'"):
+    with pytest.raises(LawViolation, match=r"fault = 'NaN'") as caught:
         graded("law", "NaN", Grade.POOR)
+    # No error is small enough for what gave no result.
+    assert (caught.value.error, caught.value.bound) == (math.inf, 0.0)
     assert graded("law", "NaN").fault == "NaN"

@@ -63,6 +63,7 @@ def inside(lower: float, upper: float, *values: int) -> float:
 
 def test_a_coordinate_within_is_0_for_one_byte_in_eight_else_evenly_spread():
     for lower, upper in ((0.0, 0.5), (-0.5, 0.0), (-0.5, 0.5), (0.0, 0.0)):
+        assert inside(lower, upper, 31, 0, 0, 0) == 0
         assert inside(lower, upper, 31, 0, 255, 255) == 0
         assert inside(lower, upper, 32, 0, 255, 255) == upper
         assert inside(lower, upper, 32) == lower

@@ -317,7 +317,9 @@ def test_frames_stand_where_an_arm_can_be_measured_from():
             turns.append(float(np.linalg.norm(so3.log(T[:3, :3]))))
         centre = simulated(PANDA, 1, kind="distances", unknown=True, seed=seed).frames["centre"]
         assert np.linalg.norm(centre) == pytest.approx(2 * PANDA.reach)
-        assert not np.allclose(made.X[:3, 3] / 0.7, centre / 2)
+        ways = np.array([made.X[:3, 3] / 0.7, made.Z[:3, 3] / 0.1, centre / 2]) / PANDA.reach
+        # No two are alike: of 40 seeds the closest two have the cosine 0.9998.
+        assert (np.abs(ways @ ways.T) < 1 - 1e-9).sum() == 6
     assert 0.5 <= min(turns) < 0.7
     assert 2.3 < max(turns) <= 2.5
     assert (made.X is made.frames["T_base_board"], made.Z is made.frames["T_tip_camera"]) == (
