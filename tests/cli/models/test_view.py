@@ -119,6 +119,8 @@ def test_a_pose_shows_all_solutions_of_six_joints_and_one_of_seven(scene):
 def test_it_is_opened_where_that_is_asked(poekin, crane, here, monkeypatch):
     opened = []
     monkeypatch.setattr(webbrowser, "open", opened.append)
+    assert poekin("view", crane, "--no-meshes")[0] == 0
+    assert opened == []
     assert poekin("view", crane, "--open", "--no-meshes")[0] == 0
     assert opened == [(here / "crane.html").as_uri()]
 
