@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.cli.formats import draw
+from poekin.view.view import view
 
 pytest.importorskip("k3d", reason="no k3d: no page was made")
 Q = [0, -0.5, 0, -2.0, 0, 1.6, 0.8]
@@ -95,3 +97,11 @@ def test_a_page_is_no_other_file_of_the_command(lines, refused, tmp_path):
     assert "it is the file of the model" in refused(
         "singularity", model, "--draw", model, "--at", "0,0,0,0,0,0"
     )
+
+
+def test_without_a_page_or_a_place_for_it_nothing_is_written_or_told(tmp_path):
+    told: list[str] = []
+    draw.save(None, tmp_path / "page.html", told.append)
+    draw.save(view(pk.load("ur5").chain()), None, told.append)
+    assert told == []
+    assert list(tmp_path.iterdir()) == []

@@ -60,6 +60,12 @@ def test_the_numbers_are_in_the_units_that_were_said_and_the_cure_is_one_that_wa
     assert beyond_limits(arm(), np.array([q]), units) == told
 
 
+def test_zero_is_told_without_a_sign():
+    for zero in (0.0, -0.0):
+        said = beyond_limits(arm(limits=[[1.0, 2.0]] * 2), np.array([[zero, 1.0]]), SI)
+        assert said == "turn = 0 rad is outside its limits, 1 to 2"
+
+
 @pytest.mark.parametrize("k", [0, 1])
 def test_no_more_than_a_turn_or_as_many_metres_is_taken_as_it_stands(k):
     for value, is_asked in ((2 * np.pi, False), (6.3, True)):

@@ -91,6 +91,17 @@ def test_a_path_is_played_with_its_times(scene, crane, tmp_path):
     assert motion["q"][1] == pytest.approx([np.pi / 2, 1.0])
 
 
+def test_a_path_is_drawn_in_its_robot_and_without_meshes_as_a_skeleton_of_its_chain(
+    scene, crane, tmp_path
+):
+    file = tmp_path / "q.csv"
+    file.write_text("0,0\n0.1,0.2\n")
+    words = (crane, "--tip", "hook", "--path", file)
+    whole, chain = (scene(*words, *more)["arms"][0]["links"] for more in ((), ("--no-meshes",)))
+    assert len(whole) == 5  # the lamp, which is no part of the chain, too
+    assert len(chain) == 4
+
+
 def test_a_pose_shows_all_solutions_of_six_joints_and_one_of_seven(scene):
     six = pk.load("ur5").chain()
     T = six.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
@@ -108,6 +119,8 @@ def test_a_pose_shows_all_solutions_of_six_joints_and_one_of_seven(scene):
 def test_it_is_opened_where_that_is_asked(poekin, crane, here, monkeypatch):
     opened = []
     monkeypatch.setattr(webbrowser, "open", opened.append)
+    assert poekin("view", crane, "--no-meshes")[0] == 0
+    assert opened == []
     assert poekin("view", crane, "--open", "--no-meshes")[0] == 0
     assert opened == [(here / "crane.html").as_uri()]
 

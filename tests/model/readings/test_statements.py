@@ -51,6 +51,15 @@ def test_names_numbers_fractions_and_signs_are_understood(statement, expected):
     assert row(statement) == expected
 
 
+def test_the_longest_name_that_fits_is_meant():
+    names = ["left", "left arm", "b", "b-c", "c"]
+    K = parse_statements(["left = left + left arm", "c = c - b-c"], names)
+    expected = np.eye(5)
+    expected[0, 1] = 1
+    expected[4, 3] = -1
+    np.testing.assert_array_equal(K, expected)
+
+
 def test_a_name_of_the_robot_comes_before_its_number():
     assert parse_statements("J1 = J1 + J2", ["J2", "J1"]).tolist() == [[1, 0], [1, 1]]
 

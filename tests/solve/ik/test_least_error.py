@@ -56,3 +56,49 @@ def test_half_the_slope_of_the_error_is_that_of_differences_far_from_the_target_
     np.testing.assert_allclose(g, np.array(differences) / (-4 * h), rtol=1e-8)
     np.testing.assert_allclose(H, H.T)
     assert size > 0
+
+
+def test_damping_is_a_fifth_after_a_step_downhill_and_five_times_after_another():
+    down, up = [], []
+
+    def asked_downhill(q):
+        down.append(q)
+        return bowl(q)
+
+    def asked_uphill(q):
+        up.append(q)
+        size, H, g = bowl(q)
+        return size, H, -g
+
+    least_error(asked_downhill, np.zeros(2), *FREE)
+    # what is left of the way after each step, by hand: d / (1 + d) of it
+    left = [1.0, 1e-3 / 1.001, 1e-3 / 1.001 * 2e-4 / 1.0002]
+    for q, share in zip(down, left, strict=False):
+        np.testing.assert_allclose(q, (1 - share) * np.array([1.0, 2.0]), rtol=1e-12)
+    least_error(asked_uphill, np.zeros(2), *FREE)
+    for q, damping in zip(up[1:], [1e-3, 5e-3, 25e-3, 0.125, 0.625], strict=False):
+        np.testing.assert_allclose(q, -np.array([1.0, 2.0]) / (1 + damping), rtol=1e-12)
+
+
+def test_the_descent_ends_with_the_step_that_gains_next_to_nothing():
+    asked = []
+
+    def above_one(q):
+        asked.append(q)
+        size, H, g = bowl(q)
+        return 1.0 + size, H, g
+
+    least_error(above_one, np.zeros(2), *FREE)
+    # gains of 5, then of 5e-6, then of 2e-13
+    assert len(asked) == 1 + 3
+
+
+def test_a_slope_of_two_joints_that_do_the_same_is_gone_down_by_both_alike():
+    """The matrix is singular, and steps are so small that the damping comes to its least."""
+
+    def trough(q):
+        off = 1.0 - q.sum()
+        return float(off**2), np.ones((2, 2)), np.full(2, 0.1 * off)
+
+    q = least_error(trough, np.zeros(2), *FREE)
+    np.testing.assert_allclose(q, 0.5 * (1 - 0.9**30), rtol=1e-4)

@@ -36,6 +36,11 @@ OFF = "2 mm and 0.01719° off"
      f"unreachable: the target is farther than the arm's reach by 123.5 mm; the nearest pose found is {OFF}"),
     (made("unreachable", beyond=29.9),
      f"unreachable: the target is farther than the arm's reach by 2.99e+04 mm; the nearest pose found is {OFF}"),
+    (made("unreachable", beyond=30.0),
+     f"unreachable: the target is farther than the arm's reach by 3e+04 mm; the nearest pose found is {OFF}"),
+    (made("unreachable", beyond=30.01),
+     "unreachable: the target is 30.01 m beyond the arm's reach, as one in millimetres would be;"
+     f" poses are in m (of files in mm, --mm says so); the nearest pose found is {OFF}"),
     (made("unreachable", beyond=499.2),
      "unreachable: the target is 499.2 m beyond the arm's reach, as one in millimetres would be;"
      f" poses are in m (of files in mm, --mm says so); the nearest pose found is {OFF}"),

@@ -32,3 +32,12 @@ def test_targets_in_parts_are_solved_as_all_together(near, aim, monkeypatch):
     if near is None:  # random starts of the others depend on how many there are in a part
         np.testing.assert_allclose(parts.q, whole.q, rtol=0, atol=1e-12)
         np.testing.assert_array_equal(parts.iterations, whole.iterations)
+
+
+def test_of_a_single_target_progress_is_told_too():
+    made, told = make_problem(ARM, GIVEN), []
+    T = ARM.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
+    found = solver.solve(made, T, progress=lambda done, count: told.append((done, count)))
+    assert told == [(1, 1)]
+    assert found.success.shape == ()
+    assert found.success

@@ -13,6 +13,7 @@ import pytest
 
 import poekin as pk
 from poekin.model import screw
+from poekin.model.readings.coupled import WITHIN
 from poekin.solve import motion
 from poekin.solve.ik import ik as ik_module
 from poekin.solve.ik.choice.every_solution import EverySolution
@@ -145,6 +146,26 @@ def test_in_the_values_of_its_joints_a_path_goes_on_until_a_reading_leaves_its_l
     assert f._slide(problem.by_joints, T[1:], readings[0], q) == 0
     assert make_problem(COUPLED.compile(), SETTINGS._replace(limits=False)).by_joints is None
     assert one().problem.by_joints is None
+
+
+@pytest.mark.parametrize(("k", "limit"), [(0, 3.0), (1, 1.0), (2, -1.0)])
+def test_a_reading_that_rounding_takes_beyond_its_limit_is_at_it(k, limit):
+    problem = make_problem(COUPLED.compile(), SETTINGS)
+    assert problem.by_joints is not None
+    f = follower.Follower(problem, np.zeros((1, 4, 4)), np.full(3, 0.1), None)
+    reading = np.zeros(3)
+
+    def kernel(*given: Any) -> int:
+        given[-1][:] = COUPLED.coupling @ reading
+        return 1
+
+    f._kernel = kernel  # type: ignore[method-assign]
+    q = np.empty((1, 3))
+    for share, done in ((-1.0, 1), (0.9, 1), (1.1, 0)):
+        # rounding grows with the size of a reading, and is not less than that of 1
+        reading[k] = limit + share * np.copysign(WITHIN, limit) * (1 + abs(limit))
+        assert f._slide(problem.by_joints, f.targets, np.zeros(3), q) == done
+        assert q[0, k] == (limit if share > 0 else pytest.approx(reading[k], rel=1e-15))
 
 
 def test_a_path_goes_on_within_readings_limits_and_joints_by_turns_until_neither_leads_on():
