@@ -29,7 +29,7 @@ def test_each_makes_the_determinant_largest_once_all_is_seen(seed, measured):
 
 def test_two_directions_seen_faintly_come_before_one_seen_well():
     blocks = np.zeros((4, 2, 2))
-    blocks[0] = [[1.0, 0.0], [0.0, 0.0]]
+    blocks[0] = [[2.0, 0.0], [0.0, 0.0]]
     blocks[1] = [[0.0, 0.0], [0.0, 1.0]]
     blocks[2] = 0.01 * np.eye(2)
     assert greedy(blocks, 3) == [2, 0, 1]
