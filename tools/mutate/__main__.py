@@ -56,7 +56,7 @@ def main(arguments: list[str] | None = None) -> int:
         "--seconds",
         type=float,
         default=math.inf,
-        help="begin no further mutant after so many seconds of the run",
+        help="begin no further mutant so many seconds after the first could begin",
     )
     parser.add_argument(
         "--afresh", action="store_true", help="run again what earlier runs have tried"
@@ -67,7 +67,6 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--report", action="store_true", help="run nothing: say what is known")
     parser.add_argument("--count", action="store_true", help="run nothing: count the mutants")
     said = parser.parse_args(arguments)
-    begin = time.monotonic()
 
     sources = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
     rooms = {room(path) for path in sources}
@@ -101,13 +100,13 @@ def main(arguments: list[str] | None = None) -> int:
         sampled = said.sample is not None and len(chosen) == said.sample
         try:
             share = 0.8 if sampled and not said.quick else 1.0
-            run(waiting, quick=said.quick or sampled, until=begin + share * said.seconds)
+            run(waiting, quick=said.quick or sampled, seconds=share * said.seconds)
             if sampled and not said.quick and _faults(counted(chosen, outcomes, listed), mutants):
                 print(
                     "too many are let through by the tests near their modules: all tests are tried on those"
                 )
                 survivors = [m for m in chosen if kind(m, outcomes, listed) == "survived"]
-                run(survivors, quick=False, until=begin + said.seconds)
+                run(survivors, quick=False, seconds=(1 - share) * said.seconds)
         except BrokenSuite as fault:
             print(
                 f"the tests do not hold by themselves, so they prove nothing: {fault}",
@@ -134,7 +133,7 @@ def _run(
     outcomes: dict[str, Outcome],
     said: argparse.Namespace,
     quick: bool,
-    until: float,
+    seconds: float,
 ) -> None:
     start = last = time.monotonic()
     done = 0
@@ -150,7 +149,7 @@ def _run(
             print(f"{done} of {len(waiting)} in {last - start:.0f} s", flush=True)
 
     with tempfile.TemporaryDirectory(prefix="mutants-") as place:
-        campaign = Campaign(ROOT, Path(place), sources, listed, file, quick, until)
+        campaign = Campaign(ROOT, Path(place), sources, listed, file, quick, seconds)
         campaign.run(waiting, max(1, min(said.workers, len(waiting))) if waiting else 0, finished)
     each = f", {campaign.processor / done:.1f} s of a processor each" if done else ""
     took = f"{time.monotonic() - start:.0f} s, {said.workers} at a time{each}"

@@ -91,9 +91,9 @@ def kept(file: Path) -> dict[str, Outcome]:
 
 
 class Campaign:
-    """Mutants to run with some workers; `finished` is called with each one and its outcome. None is
-    begun after `until`, of the monotonic clock. `processor` is what all of it took, s: tests that are
-    seen to pass without a mutant too.
+    """Mutants to run with some workers; `finished` is called with each one and its outcome. A worker
+    begins none after so many `seconds` from when it could begin the first. `processor` is what all of
+    it took, s: tests that are seen to pass without a mutant too.
     """
 
     def __init__(
@@ -104,7 +104,7 @@ class Campaign:
         listed: set[str],
         file: Path,
         quick: bool,
-        until: float = math.inf,
+        seconds: float = math.inf,
     ):
         self.root, self.place, self.sources, self.listed, self.file = (
             root,
@@ -114,7 +114,7 @@ class Campaign:
             file,
         )
         self.quick = quick
-        self.until = until
+        self.seconds = seconds
         self.processor = 0.0
         self._jobs: queue.SimpleQueue[Mutant] = queue.SimpleQueue()
         self._known: Path | None = None
@@ -145,7 +145,8 @@ class Campaign:
             with contextlib.closing(
                 Server(self.root, self.place / f"tree{number}", self._known)
             ) as server:
-                for mutant in self._taken():
+                until = time.monotonic() + self.seconds
+                for mutant in self._taken(until):
                     outcome = self._judged(server, mutant)
                     with self._lock, self.file.open("a", encoding="utf-8") as file:
                         file.write(json.dumps(outcome) + "\n")
@@ -153,9 +154,9 @@ class Campaign:
         except (OSError, ValueError, BrokenSuite) as fault:
             self._faults.append(fault)
 
-    def _taken(self) -> Iterator[Mutant]:
+    def _taken(self, until: float) -> Iterator[Mutant]:
         with contextlib.suppress(queue.Empty):
-            while not self._faults and time.monotonic() < self.until:
+            while not self._faults and time.monotonic() < until:
                 yield self._jobs.get_nowait()
 
     def _judged(self, server: Server, mutant: Mutant) -> Outcome:
