@@ -68,14 +68,19 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--count", action="store_true", help="run nothing: count the mutants")
     said = parser.parse_args(arguments)
 
-    sources = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
-    rooms = {room(path) for path in sources}
+    rooms = {room(path) for path in paths(ROOT)}
     if unknown := sorted(set(said.room or ()) - rooms):
         parser.error(f"no room called {unknown[0]!r}; there are {', '.join(sorted(rooms))}")
+    asked = set(said.room or rooms)
+    sources = {
+        path: (ROOT / path).read_text(encoding="utf-8")
+        for path in paths(ROOT)
+        if room(path) in asked
+    }
     every = [mutant for path, source in sources.items() for mutant in mutants_of(path, source)]
-    listed, stale = equivalent.listed(every, equivalent.entries())
+    entries = [entry for entry in equivalent.entries() if room(entry.path) in asked]
+    listed, stale = equivalent.listed(every, entries)
     chosen = [m for m in every if not said.module or any(part in m.path for part in said.module)]
-    chosen = [m for m in chosen if not said.room or m.room in said.room]
     chosen = [m for m in chosen if not said.operator or said.operator in m.operator]
     if said.sample is not None:
         chosen = sample.drawn(chosen, said.sample, said.seed)
