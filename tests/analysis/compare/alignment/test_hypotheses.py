@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from poekin.analysis.compare.alignment.hypotheses import Hypothesis
+from benchmarks.planted_changes import planted, random_arm
+from poekin.analysis.axis_lines import Tolerances
+from poekin.analysis.compare.alignment.hypotheses import Hypothesis, as_they_stand
 
 
 def cost(
@@ -96,3 +98,11 @@ def test_of_several_moved_axes_it_counts_how_far_they_are():
     assert cost(axes=3) - cost(axes=2) == pytest.approx(3 + 2)
     assert cost(axes=2, zeros=1) - cost(axes=2) == pytest.approx(2.5)
     assert cost(axes=2, zeros=2) - cost(axes=2) == pytest.approx(3.5)
+
+
+@pytest.mark.parametrize("tolerance, most", [(1e-5, 100.0), (1e-14, 1e9)])
+def test_an_axis_is_no_more_than_a_thousand_million_tolerances_off(tolerance, most):
+    chain = random_arm(3, ("revolute",) * 3)
+    other = planted(chain, "shift", 1, np.random.default_rng(0))  # by 1 mm
+    reading = as_they_stand(chain, other, Tolerances(tolerance, tolerance))
+    assert reading.deviations[1] == pytest.approx(most, rel=1e-10)
