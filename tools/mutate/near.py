@@ -88,8 +88,11 @@ NEAR = {
     "model/analytic model/hp model/pose_jacobian": f"own {_REFUSALS} {CHAINS}",
     "model/arm": "own formats/emit_python solve/ik",
     "model/axis_walk": "own model/idealised",
-    "model/chain model/chain_data model/other_frames model/outputs": (
+    "model/chain model/chain_data model/outputs": (
         f"{CHAINS} model/chain_data {_REFUSALS} model/coordinates model/pitches"
+    ),
+    "model/other_frames": (
+        f"{CHAINS} model/chain_data model/link_masses model/coupled {_REFUSALS} model/pitches"
     ),
     "model/checks": f"own model/joint model/link_masses {_REFUSALS} {CHAINS}",
     "model/compiled": f"{_REFUSALS} own model/chain_laws",

@@ -74,7 +74,7 @@ def test_one_angle_of_many_that_fits_by_chance_says_nothing(tmp_path):
     assert re.match("[ab]", in_degrees(right, chain(tmp_path, [0, 90, -90, 1, 0])))
 
 
-@pytest.mark.parametrize("turns", [(90,), (-90,), (45, 180), (135, -90)])
+@pytest.mark.parametrize("turns", [(90,), (-90,), (45, 180), (135, -90), (-45, -180), (-135, 45)])
 def test_degrees_about_a_joint_s_own_axis_are_named_by_the_zeros_that_they_make(turns):
     one = arm("ur5e")
     q = np.zeros(6)
