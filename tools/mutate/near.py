@@ -96,6 +96,7 @@ NEAR = {
     ),
     "model/checks": f"own model/joint model/link_masses {_REFUSALS} {CHAINS}",
     "model/compiled": f"{_REFUSALS} own model/chain_laws",
+    "model/configurations": f"own model/degrees {_REFUSALS} {CHAINS}",
     "model/coordinates": f"own model/checks {_REFUSALS} {CHAINS}",
     "model/coupling": f"own {_ROBOTS}",
     "model/derivatives": f"own model/derivatives_pinocchio {_REFUSALS} {CHAINS}",
