@@ -96,7 +96,7 @@ NEAR = {
     ),
     "model/checks": f"own model/joint model/link_masses {_REFUSALS} {CHAINS}",
     "model/compiled": f"{_REFUSALS} own model/chain_laws",
-    "model/configurations": f"own model/degrees {_REFUSALS} {CHAINS}",
+    "model/configurations": f"model/degrees {_REFUSALS} {CHAINS}",
     "model/coordinates": f"own model/checks {_REFUSALS} {CHAINS}",
     "model/coupling": f"own {_ROBOTS}",
     "model/derivatives": f"own model/derivatives_pinocchio {_REFUSALS} {CHAINS}",
@@ -234,7 +234,9 @@ NEAR = {
     "solve/separations": "solve/unknown_points",
     "analysis/axes analysis/shapes": _AXES,
     "analysis/axis_lines": f"own analysis/lines {_COMPARES}",
-    "analysis/compare/compare": f"{_COMPARES} analysis/length_unit",
+    "analysis/compare/compare": (
+        f"{_COMPARES} analysis/length_unit analysis/rpy_degrees analysis/mirror"
+    ),
     "analysis/comparison": f"own analysis/messages {_COMPARES}",
     "analysis/count analysis/count_methods": _COUNTS,
     "analysis/count_scalars analysis/count_table": _COUNTS,
