@@ -88,11 +88,15 @@ NEAR = {
     "model/analytic model/hp model/pose_jacobian": f"own {_REFUSALS} {CHAINS}",
     "model/arm": "own formats/emit_python solve/ik",
     "model/axis_walk": "own model/idealised",
-    "model/chain model/chain_data model/other_frames model/outputs": (
+    "model/chain model/chain_data model/outputs": (
         f"{CHAINS} model/chain_data {_REFUSALS} model/coordinates model/pitches"
+    ),
+    "model/other_frames": (
+        f"{CHAINS} model/chain_data model/link_masses model/coupled {_REFUSALS} model/pitches"
     ),
     "model/checks": f"own model/joint model/link_masses {_REFUSALS} {CHAINS}",
     "model/compiled": f"{_REFUSALS} own model/chain_laws",
+    "model/configurations": f"model/degrees {_REFUSALS} {CHAINS}",
     "model/coordinates": f"own model/checks {_REFUSALS} {CHAINS}",
     "model/coupling": f"own {_ROBOTS}",
     "model/derivatives": f"own model/derivatives_pinocchio {_REFUSALS} {CHAINS}",
@@ -230,7 +234,9 @@ NEAR = {
     "solve/separations": "solve/unknown_points",
     "analysis/axes analysis/shapes": _AXES,
     "analysis/axis_lines": f"own analysis/lines {_COMPARES}",
-    "analysis/compare/compare": f"{_COMPARES} analysis/length_unit",
+    "analysis/compare/compare": (
+        f"{_COMPARES} analysis/length_unit analysis/rpy_degrees analysis/mirror"
+    ),
     "analysis/comparison": f"own analysis/messages {_COMPARES}",
     "analysis/count analysis/count_methods": _COUNTS,
     "analysis/count_scalars analysis/count_table": _COUNTS,

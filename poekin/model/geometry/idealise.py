@@ -136,8 +136,7 @@ def _settled(chain: ChainData, screws: Array, home: Array) -> bool:
     or parallel axis.
     """
     for old, new in ((chain.screws, screws), (chain.home, home)):
-        largest = float(np.abs(old).max(initial=0))
-        size = max(1.0, chain.reach, largest)
+        size = np.abs(old).max(initial=chain.reach)
         far = np.abs(old - new) > 16 * ROUNDOFF * size
         made_exact = np.isin(new, (-1.0, 0.0, 1.0)) & (old != new)
         if far.any() or made_exact.any():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.analysis.compare.joint_table import HEADS, joint_row
+from poekin.analysis.compare.joint_table import HEADS, _deg, _mm, joint_row
 
 ARM = pk.load("ur5").chain()
 TOL = 1e-3
@@ -38,3 +38,15 @@ def test_what_is_within_the_tolerance_is_shown_too(size):
 
 def test_what_is_far_below_the_tolerance_is_zero():
     assert shown(1e-8 * TOL, 1e-8 * TOL) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("tol", [1e-5, 1e-3, 0.5])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_number_is_shown_from_a_millionth_of_the_tolerance_on(tol, sign):
+    least = 1e-6 * tol
+    for size, share in ((least, 1), (2 * least, 2), (0.9 * least, 0), (0.0, 0)):
+        length, angle = _mm(sign * size, tol), _deg(sign * size, tol)
+        assert float(length) == pytest.approx(sign * share * 1e3 * least, rel=1e-3)
+        assert float(angle) == pytest.approx(sign * share * np.degrees(least), rel=1e-3)
+        assert share or length == angle == "0"
+    assert _mm(None, tol) == ""

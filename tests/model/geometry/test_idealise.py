@@ -9,6 +9,7 @@ import math
 import numpy as np
 import pytest
 
+from poekin.groups import so3
 from poekin.groups.arrays import ROUNDOFF
 from poekin.model import screw
 from poekin.model.chain import Chain
@@ -98,13 +99,18 @@ def test_frames_slide_along_their_lines_to_be_nearest_to_the_one_before():
     assert [f.z for f in slid] == [f.z for f in frames]
 
 
-def test_a_chain_is_settled_where_last_digits_differ_alone():
-    rows = [screw.revolute([0.6, 0, 0.8], [0.3, 0, 0]), screw.revolute([0, 0.6, 0.8], [0.5, 0, 0])]
+@pytest.mark.parametrize("metres", [20.0, 0.1])
+def test_a_chain_is_settled_where_last_digits_differ_alone(metres):
+    rows = [
+        screw.revolute([0.6, 0, 0.8], [0.03, 0, 0]),
+        screw.revolute([0, 0.6, 0.8], [0.05, 0, 0]),
+    ]
     T = np.eye(4)
-    T[:3, 3] = 0.3, 0.7, 20.0
+    T[:3, :3] = so3.exp([0.3, 0.4, 0.5])
+    T[:3, 3] = 0.03, 0.07, metres
     chain = Chain.from_space(rows, T)
+    assert max(1.0, metres) <= chain.reach < max(1.0, metres) + 0.2
     size = 16 * ROUNDOFF * chain.reach
-    assert chain.reach > 20
 
     def settled(change, where):
         screws, home = chain.screws.copy(), chain.home.copy()

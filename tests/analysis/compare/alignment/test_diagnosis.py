@@ -179,3 +179,95 @@ def test_a_reading_is_none_where_its_worst_pose_and_its_mean_are_worse_by_more_t
     reading: Any = SimpleNamespace(beside_link=np.zeros(6, bool), poses=lambda chain, x: after)
     monkeypatch.setattr(diagnosis, "pose_differences", lambda ours, theirs: (theirs, None))
     assert diagnosis._holds(given, reading) == holds
+
+
+def told(monkeypatch, *readings, linked=None):
+    """What is told where the models as they stand are 100 tolerances apart in each of two sets of
+    poses, and other readings are of so many frames, zeros and errors.
+    """
+    found: list[Any] = [
+        SimpleNamespace(frames=frames, offset=np.arange(6) < zeros, errors=np.array(errors))
+        for frames, zeros, *errors in [(0, 0, 100, 100), *readings]
+    ]
+    first = SimpleNamespace(moved=np.ones(6, bool))
+    monkeypatch.setattr(diagnosis, "search", lambda a, b, tol: (first, ["others"]))
+    monkeypatch.setattr(diagnosis, "sides", lambda a, b, tol: None)
+    monkeypatch.setattr(diagnosis, "_holds", lambda case, reading: False)
+    monkeypatch.setattr(diagnosis, "_of_all_axes", lambda case: found)
+    monkeypatch.setattr(diagnosis, "_errors", lambda case, reading: reading.errors)
+    monkeypatch.setattr(diagnosis, "with_link", lambda pair, readings: [linked] if linked else [])
+    nothing: Any = None
+    return found, diagnosis._diagnose(nothing, nothing, nothing, ())
+
+
+@pytest.mark.parametrize("readings, best", [
+    ([], 0),
+    ([(1, 0, 50, 50)], 1),  # an alignment may leave half
+    ([(1, 0, 51, 10)], 0),
+    ([(1, 0, 10, 51)], 0),
+    ([(0, 1, 25, 25)], 1),  # another zero a quarter
+    ([(0, 1, 26, 1)], 0),
+    ([(1, 1, 1, 26)], 0),
+    ([(0, 0, 60, 60)], 0),  # for nothing there is none
+    ([(1, 0, 40, 40), (1, 0, 40, 40)], 2),  # of two that move as much it is the better one
+    ([(1, 0, 40, 40), (1, 0, 39, 39)], 2),
+    ([(1, 0, 40, 40), (1, 0, 39, 41)], 1),
+    ([(0, 1, 20, 20), (0, 1, 19, 19), (0, 0, 18, 18)], 3),
+    ([(1, 0, 40, 40), (2, 0, 20, 20)], 2),  # one that moves more is to leave half of the best one's
+    ([(1, 0, 40, 40), (2, 0, 21, 21)], 1),
+    ([(2, 0, 40, 40), (1, 0, 21, 21)], 1),
+    ([(1, 0, 40, 40), (1, 1, 10, 10)], 2),
+    ([(1, 0, 40, 40), (1, 1, 11, 11)], 1),
+    ([(0, 1, 20, 20), (0, 2, 6, 6), (0, 2, 5, 5)], 3),
+])  # fmt: skip
+def test_a_reading_is_told_where_it_leaves_enough_less_than_the_best_one_before_it(
+    readings, best, monkeypatch
+):
+    found, result = told(monkeypatch, *readings)
+    assert result.reading is found[best]
+    assert result.others == []
+    assert result.aligned_to == ("all axes" if found[best].frames else "nothing")
+
+
+@pytest.mark.parametrize("frames, how", [(0, "nothing"), (1, "all axes")])
+def test_a_link_that_explains_the_last_axes_is_told_with_what_it_was_aligned_to(
+    frames, how, monkeypatch
+):
+    linked = SimpleNamespace(frames=1 - frames)
+    _, result = told(monkeypatch, (frames, 0, 10, 10), linked=linked)
+    assert (result.reading, result.aligned_to) == (linked, how)
+
+
+def case_of(samples, ours, theirs):
+    """Two arms with these poses at numbers of samples, and a reading that takes b's as they are."""
+    a = SimpleNamespace(fk=lambda x: ours[x])
+    b = SimpleNamespace(fk=lambda x: theirs[x])
+    case: Any = SimpleNamespace(
+        a=a, b=b, samples=samples, pair=SimpleNamespace(tol=Tolerances(0.5, 0.125))
+    )
+    reading: Any = SimpleNamespace(
+        poses=lambda chain, x: chain.fk(x), tool=se3.exp([0.1, 0, 0.2, 1, 2, 3])
+    )
+    return case, reading
+
+
+def test_the_errors_of_each_set_are_its_worst_in_position_and_in_rotation_each_in_tolerances():
+    ours = np.tile(np.eye(4), (4, 1, 1))
+    theirs = se3.exp([[0, 0, 0, 2, 0, 0], [0.5, 0, 0, 0, 0, 0], [0, 0.25, 0, 0, 0, 0], [0] * 6])
+    case, reading = case_of((np.array([0, 1]), np.array([2, 3]), np.array([3])), ours, theirs)
+    assert diagnosis._errors(case, reading) == pytest.approx(
+        [2 / 0.5 + 0.5 / 0.125, 0.25 / 0.125, 0]
+    )
+
+
+def test_the_tool_brings_the_poses_nearest_in_the_mean():
+    rng = np.random.default_rng(0)
+    theirs = se3.exp(rng.normal(size=(9, 6)))
+    tool = se3.exp([0.4, -0.3, 0.2, 0.1, 0.2, 0.3])
+    ours = theirs @ tool @ se3.exp(0.3 * rng.normal(size=(9, 6)))
+    case, reading = case_of((np.arange(4), np.arange(4, 9)), ours, theirs)
+    mean = se3.inverse(reading.tool) @ diagnosis._tool(case, reading)
+    left = se3.log(se3.inverse(theirs @ mean) @ ours)
+    assert np.abs(left).max() > 0.1
+    # Three steps leave 1e-6, of which each leaves a fiftieth or so; two of them 1e-4.
+    np.testing.assert_allclose(left.mean(0), 0, atol=1e-5)

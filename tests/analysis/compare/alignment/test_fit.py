@@ -129,3 +129,62 @@ def test_a_fit_that_starts_near_takes_few_steps_and_ends_where_none_helps(monkey
     found, _ = counted(monkeypatch, 60, same, Alignments.rigid(off, 5), free, used)
     assert pytest.approx(here.P, abs=1e-12) == found.P
     assert counted(monkeypatch, 60, same, here, free, used)[1] == 0
+
+
+def scripted(monkeypatch, costs, size=1.0):
+    """The dampings of the steps of a fit whose start and trials cost that much, and the number of the
+    alignments that it ends at; every step promises a gain of `size` or so.
+    """
+    pair, at, _, _ = near(0, 1)
+    script, seen, dampings = iter(costs), [], []
+
+    def linearised(_pair, tried, *_):
+        seen.append(tried.z.copy())
+        r = np.full((1, 30), np.sqrt(size))
+        return fitting.Linearised(tried, r, np.eye(30, 11)[None], np.array([next(script)]))
+
+    def step(r, J, damping):
+        dampings.append(damping[0])
+        return _step(r, J, damping)
+
+    monkeypatch.setattr(fitting, "_linearised", linearised)
+    monkeypatch.setattr(fitting, "_step", step)
+    found = fit(pair, at, True, True)
+    (number,) = [k for k, z in enumerate(seen) if (z == found.z).all()]
+    return np.array(dampings), number
+
+
+def test_damping_grows_after_a_loss_and_eases_after_a_gain(monkeypatch):
+    costs = [90.0, 95.0, 99.0, 80.0, 70.0, 85.0, 60.0, 1e-17]
+    dampings, end = scripted(monkeypatch, costs)
+    assert end == len(costs) - 1
+    best = np.minimum.accumulate(costs)
+    lost = np.array(costs[1:]) > best[:-1]
+    changes = np.log10(dampings[1:] / dampings[:-1])
+    assert (changes[lost[:-1]] > 0.5).all()
+    assert (changes[~lost[:-1]] < -0.5).all()
+
+
+def test_a_step_that_promises_a_gain_is_tried_ever_shorter_until_the_damping_is_a_thousand(
+    monkeypatch,
+):
+    dampings, end = scripted(monkeypatch, [90.0] + 30 * [91.0])
+    assert end == 0
+    assert (dampings[1:] > 3 * dampings[:-1]).all()
+    assert 900 < dampings[-1] < 20_000
+    # One that promises nothing to speak of is not.
+    assert len(scripted(monkeypatch, [90.0] + 30 * [91.0], size=1e-13)[0]) == 1
+
+
+@pytest.mark.parametrize("costs, end", [
+    ([90.0, 90.0 - 2 * 90e-12, 50.0, 1e-17], 3),
+    ([90.0, 90.0 - 0.5 * 90e-12, 50.0], 1),
+    ([90.0, 2e-16, 1e-17], 2),
+    ([90.0, 0.5e-16, 1e-17], 1),
+    ([2e-16, 1e-17], 1),
+    ([0.5e-16, 1e-17], 0),
+])  # fmt: skip
+def test_a_fit_ends_where_a_gain_is_a_millionth_of_a_millionth_or_nothing_is_left(
+    monkeypatch, costs, end
+):
+    assert scripted(monkeypatch, costs)[1] == end

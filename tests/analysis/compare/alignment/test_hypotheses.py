@@ -7,10 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from poekin.analysis.compare.alignment.hypotheses import Hypothesis
+from benchmarks.planted_changes import planted, random_arm
+from poekin.analysis.axis_lines import Tolerances
+from poekin.analysis.compare.alignment.hypotheses import Hypothesis, as_they_stand
 
 
-def cost(
+def reading(
     axes: int = 0,
     zeros: int = 0,
     reversed_: int = 0,
@@ -18,8 +20,8 @@ def cost(
     link: int = 0,
     miss: Any = 16.0,
     joints: int = 12,
-) -> float:
-    """Of a reading in which joints 1, 2 ... have another axis, those after them other zeros, the
+) -> Hypothesis:
+    """A reading in which joints 1, 2 ... have another axis, those after them other zeros, the
     last ones reversed.
     """
     n = joints
@@ -39,7 +41,12 @@ def cost(
         deviations,
         frames,
         link,
-    ).cost[0]
+    )
+
+
+def cost(**differs: Any) -> float:
+    """Of a reading in which so much differs."""
+    return reading(**differs).cost[0]
 
 
 def test_one_change_comes_first_whatever_it_is():
@@ -96,3 +103,55 @@ def test_of_several_moved_axes_it_counts_how_far_they_are():
     assert cost(axes=3) - cost(axes=2) == pytest.approx(3 + 2)
     assert cost(axes=2, zeros=1) - cost(axes=2) == pytest.approx(2.5)
     assert cost(axes=2, zeros=2) - cost(axes=2) == pytest.approx(3.5)
+
+
+@pytest.mark.parametrize("tolerance, most", [(1e-5, 100.0), (1e-14, 1e9)])
+def test_an_axis_is_no_more_than_a_thousand_million_tolerances_off(tolerance, most):
+    chain = random_arm(3, ("revolute",) * 3)
+    other = planted(chain, "shift", 1, np.random.default_rng(0))  # by 1 mm
+    found = as_they_stand(chain, other, Tolerances(tolerance, tolerance))
+    assert found.deviations[1] == pytest.approx(most, rel=1e-10)
+
+
+def test_a_frame_that_moved_counts_beside_several_axes_or_a_link_and_no_other_reading():
+    for frames in (1, 2):
+        for differs in ({"axes": 2}, {"axes": 3, "zeros": 1}, {"axes": 4, "link": 2}):
+            assert cost(**differs, frames=frames) - cost(**differs) == pytest.approx(1.4 * frames)
+        for differs in ({}, {"axes": 1, "zeros": 1}, {"zeros": 3}, {"axes": 0, "reversed_": 2}):
+            assert cost(**differs, frames=frames) == cost(**differs)
+
+
+def test_several_changes_are_weighed_to_two_digits():
+    two = cost(axes=2)
+    # The fourth roots make 4.002, and so 4.00.
+    assert cost(axes=2, miss=2.001**4) == two
+    assert cost(axes=2, miss=2.004**4) - two == pytest.approx(0.01)
+    assert cost(axes=1, zeros=1, miss=2.01**4) == cost(axes=1, zeros=1)
+
+
+def test_nothing_that_differs_costs_nothing_and_one_joint_2_5_or_4_9_in_frames_that_moved():
+    assert cost() == cost(frames=2) == 0
+    for one in ({"axes": 1}, {"zeros": 1}, {"reversed_": 1}):
+        assert [cost(**one, frames=frames) for frames in (0, 1)] == [2.5, 2.5]
+    assert cost(axes=1, frames=2) == 4.9
+    assert cost(zeros=1, frames=2) == 2.5
+
+
+def test_joints_of_other_conventions_cost_three_and_a_quarter_and_a_quarter_each_beyond_two():
+    found = [cost(zeros=k) for k in range(8)]
+    assert found == [0, 2.5, 3.5, 4.0, 4.25, 4.5, 4.75, 5.0]
+
+
+def test_of_readings_that_cost_the_same_frames_that_stay_then_few_changes_then_near_axes_decide():
+    def order(**differs):
+        return reading(**differs).cost
+
+    assert order(zeros=2)[1:3] == (0, 2)
+    assert order(zeros=2, frames=2)[1:3] == (2, 2)
+    assert order(axes=1)[1:3] == (0, 1)
+    assert order(zeros=1)[1:3] == (0, 0)
+    # Half a tolerance of each of twelve axes, and of the two that moved no more than ten.
+    for miss, near in ((4.0, 4.0), (16.0, 10.0), (1e9, 10.0)):
+        assert order(axes=2, miss=miss)[3] == pytest.approx(10 * 0.5 + 2 * near)
+        assert order(axes=1, miss=miss)[3] == pytest.approx(11 * 0.5 + near)
+        assert order(axes=3, link=2, miss=miss)[2:] == (3, pytest.approx(9 * 0.5 + 3 * near))

@@ -7,6 +7,7 @@ import pytest
 
 from benchmarks.planted_changes import random_arm
 from poekin.analysis.axis_lines import Tolerances
+from poekin.analysis.compare.alignment import robust
 from poekin.analysis.compare.alignment.fit import fit
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.alignment.robust import robust_alignments
@@ -69,3 +70,39 @@ def test_the_wider_one_is_where_reweighting_settles(seed):
     again = fit(pair, wide, False, 1 / np.hypot(1, miss / scale))
     # Twelve steps leave some 1e-4 of the scale or less, three of them 5e-3 and more.
     np.testing.assert_allclose(pair.deviations(again), miss, rtol=0, atol=3e-3 * scale)
+
+
+def test_the_scale_of_the_loss_is_the_median_twelve_times_and_then_falls_to_a_tolerance(
+    monkeypatch,
+):
+    chain = random_arm(2)
+    other = shifted(chain, [2, 20, 300, 300, 30, 3000], np.random.default_rng(1))
+    pair = sides(chain, other, TOL)
+    scales, medians = [], []
+
+    def step(pair, at, scale):
+        scales.append(scale)
+        medians.append(np.median(pair.deviations(at), axis=1))
+        return own_step(pair, at, scale)
+
+    own_step = robust._step
+    monkeypatch.setattr(robust, "_step", step)
+    robust_alignments(pair)
+    wide, falling = np.array(scales[:12]), np.array(scales[12:])
+    assert wide.min() > 1
+    assert wide == pytest.approx(np.array(medians[:12]))
+    steps = np.arange(1, len(falling) + 1)
+    expected = np.maximum(0.3 ** steps[:, None] * medians[12], 1)
+    assert falling == pytest.approx(expected, rel=1e-9)
+    assert falling[-1].max() == 1 < falling[-2].max()
+
+
+def test_axes_that_all_but_agree_are_weighed_by_a_tolerance(monkeypatch):
+    chain = random_arm(2)
+    pair = sides(chain, shifted(chain, [0.01] * 6, np.random.default_rng(1)), TOL)
+    scales = []
+    own_step = robust._step
+    monkeypatch.setattr(robust, "_step", lambda *x: scales.append(x[2]) or own_step(*x))
+    robust_alignments(pair)
+    assert np.array_equal(scales, np.ones_like(scales))
+    assert len(scales) == 12

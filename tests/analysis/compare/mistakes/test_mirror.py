@@ -7,6 +7,7 @@ import pytest
 
 from benchmarks.planted_changes import ARMS, arm, planted
 from poekin.analysis.axis_lines import Tolerances
+from poekin.analysis.compare.alignment.search import search
 from poekin.analysis.compare.compare import compare
 from poekin.analysis.compare.mistakes.mirror import AXES, mirror_of, mirrored
 from poekin.groups import se3
@@ -98,3 +99,28 @@ def test_what_is_no_mirror_is_not_called_one(name, change):
     other = planted(planted(chain, change, 3, rng), "flip", 4, rng)
     assert compare(chain, other, samples=1).mistake == ""
     assert mirror_of(chain, other, TOL, moved=False) is None
+
+
+def planes(directions, places, q):
+    """An arm that the plane of x and z mirrors onto itself at q = 0, from where it stands at q."""
+    rows = [screw.revolute(w, p) for w, p in zip(directions, places, strict=True)]
+    home = se3.exp([0, 0, 0, 0.9, 0, 0.95])
+    return Chain.from_space(rows, home).rezeroed(q)
+
+
+def test_what_two_changes_of_convention_explain_as_well_is_a_mirror_and_one_change_is_none():
+    x, y, z = np.eye(3)
+    places = [[0, 0, 0], [0.1, 0, 0.4], [0.1, 0, 0.9], [0.2, 0, 0.95], [0.7, 0, 0.95]]
+    three = planes([z, y, y, x, y], places, [0.3, 0.4, 0.2, 0.5, 0.1])
+    two = planes([z, y, y, x, y], places, [0.3, 0.4, 0.2, 0, 0.1])  # the fourth joint has its zero
+    one = planes([y, y, x, y], places[1:], [0, 0.3, 0, 0.2])  # the third joint turns the other way
+    for chain, axis, mistake, changes in (
+        (three, "x", "mirrored", 3),
+        (two, "x", "mirrored", 2),
+        (one, "y", "", 1),
+    ):
+        other = mirrored(chain, axis)
+        reading = search(chain, other, TOL)[0]
+        assert (reading.moved.any(), reading.changes.sum()) == (False, changes)
+        assert mirror_of(chain, other, TOL, moved=False) is not None
+        assert compare(chain, other, samples=5).mistake == mistake

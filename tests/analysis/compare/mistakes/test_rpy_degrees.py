@@ -48,6 +48,14 @@ def test_a_file_with_degrees_in_rpy_is_named_either_way_round(tmp_path, degrees,
         assert result.findings[0].startswith(f"links of model {model} turn by as many radians")
 
 
+@pytest.mark.filterwarnings("ignore:.*rpy is more than a turn")
+@pytest.mark.parametrize("degrees", [30, 60, 100, 120, 135, 150, 170, -50, -130])
+def test_one_angle_that_differs_says_it_alone_be_it_sharp_or_blunt(tmp_path, degrees):
+    right = chain(tmp_path, (0, np.radians(degrees), 0, 0, 0))
+    wrong = chain(tmp_path, (0, degrees, 0, 0, 0))
+    assert (in_degrees(right, wrong), in_degrees(wrong, right)) == ("b", "a")
+
+
 @pytest.mark.parametrize("name", ["panda", "ur5e", "random 6a"])
 @pytest.mark.parametrize("change", ["tilt", "shift", "zero"])
 def test_what_differs_otherwise_is_not_called_so(name, change):
@@ -66,7 +74,7 @@ def test_one_angle_of_many_that_fits_by_chance_says_nothing(tmp_path):
     assert re.match("[ab]", in_degrees(right, chain(tmp_path, [0, 90, -90, 1, 0])))
 
 
-@pytest.mark.parametrize("turns", [(90,), (-90,), (45, 180), (135, -90)])
+@pytest.mark.parametrize("turns", [(90,), (-90,), (45, 180), (135, -90), (-45, -180), (-135, 45)])
 def test_degrees_about_a_joint_s_own_axis_are_named_by_the_zeros_that_they_make(turns):
     one = arm("ur5e")
     q = np.zeros(6)
