@@ -144,25 +144,42 @@ def test_what_selects_solutions_has_as_much_room_as_the_emitted_program_gives_it
     assert shapes == [(4, 4), (form.rows, 3), (4,), (4, 4), (2 + 8, 2), (form.rows, 2)]
 
 
-def test_a_target_is_clear_where_the_least_singular_value_over_the_reach_is_above_a_thousandth():
-    class Clear:
-        """A form whose branches are all far from meeting."""
+class Margins:
+    """A form with branches of these margins, and one that is not filled in."""
 
-        def branches(self, T):
-            return np.full((8, 7), np.nan) + np.append(np.zeros(6), 1.0)
+    def __init__(self, *margins):
+        self.rows = np.array([*([0.0] * 6 + [margin] for margin in margins), [np.nan] * 7])
 
-    form = Clear()
-    q = np.tile([0.3, -0.4, 0.5, 0.6, 0.0, 0.7], (200, 1))
-    q[:, 4] = np.geomspace(1e-4, 0.1, 200)  # the wrist is stretched where that is 0
+    def branches(self, T):
+        return self.rows
+
+
+@pytest.mark.parametrize("turned", range(3))
+def test_a_target_is_clear_where_the_least_singular_value_over_the_reach_is_above_a_thousandth(
+    turned,
+):
+    arm = PUMA.rebased(pk.se3.exp([*(0.5 * np.pi * np.eye(3)[turned]), 0, 0, 0]))
+    form = Margins(1.0, -1.0)
+    rng = np.random.default_rng(2)
     found, wanted = [], []
-    for row, T in zip(q, PUMA.fk(q), strict=True):
-        J = PUMA.jacobian(row, "hybrid") / np.repeat([1.0, PUMA.reach], 3)[:, None]
+    for row in rng.uniform(-3, 3, (300, 6)):
+        row[4] = rng.uniform(0, 0.01)  # the wrist is stretched where that is 0
+        J = arm.jacobian(row, "hybrid") / np.repeat([1.0, arm.reach], 3)[:, None]
         least = np.linalg.svd(J, compute_uv=False).min()
         if abs(least - 1e-3) > 1e-12:  # rounding decides nearer than that
             wanted.append(least > 1e-3)
-            found.append(ik_vectors._is_clear(PUMA, form, T, row[None]))  # type: ignore[arg-type]
+            found.append(ik_vectors._is_clear(arm, form, np.eye(4), row[None]))  # type: ignore[arg-type]
     assert found == wanted
     assert 0 < sum(wanted) < len(wanted)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_target_is_clear_where_each_margin_is_above_a_thousandth_on_either_side(sign):
+    q = np.full((1, 6), 0.5)
+    for margin, clear in ((1.01e-3, True), (0.99e-3, False)):
+        for margins in ((1.0, sign * margin), (sign * margin, -1.0)):
+            form = Margins(*margins)
+            assert ik_vectors._is_clear(PUMA, form, np.eye(4), q) == clear  # type: ignore[arg-type]
 
 
 def test_the_self_test_has_the_targets_counts_and_solutions_in_its_tables():

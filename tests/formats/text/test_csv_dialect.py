@@ -66,6 +66,9 @@ REFUSED = {
     "a quote that is left open": ('\n1;2;"3\n4;5;6\n', FileError, "f.csv:3: not CSV: unexpected end of data"),
     "a quote in the middle": ('1,2,"3"4\n', FileError, """f.csv:1: not CSV: ',' expected after '"'"""),
     "an empty cell": ("1,,3\n", InputError, "f.csv:1, column 2: a number expected, got ''"),
+    "the last one is empty": ("1,2,3\n4,5,\n", InputError, "f.csv:2, column 3: a number expected, got ''"),
+    "the last ones are empty": ("x;y;z\n4;;;\n", InputError, "f.csv:2, column 2: a number expected, got ''"),
+    "one too many": ("1,2,3\n4,5,6, ,7\n", InputError, "f.csv:2: 3 values expected (x, y, z), got 5"),
     "too few at the end": ("1,2,\n", InputError, "f.csv:1: 3 values expected (x, y, z), got 2"),
 }  # fmt: skip
 
