@@ -176,7 +176,7 @@ def test_a_target_is_clear_where_the_least_singular_value_over_the_reach_is_abov
 @pytest.mark.parametrize("sign", [1, -1])
 def test_a_target_is_clear_where_each_margin_is_above_a_thousandth_on_either_side(sign):
     q = np.full((1, 6), 0.5)
-    for margin, clear in ((1.01e-3, True), (0.99e-3, False)):
+    for margin, clear in ((1.01e-3, True), (1e-3, False), (0.99e-3, False)):
         for margins in ((1.0, sign * margin), (sign * margin, -1.0)):
             form = Margins(*margins)
             assert ik_vectors._is_clear(PUMA, form, np.eye(4), q) == clear  # type: ignore[arg-type]

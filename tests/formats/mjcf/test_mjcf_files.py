@@ -10,12 +10,12 @@ import os
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
 
 from poekin.errors import FileError, ModelError
 from poekin.formats.load import load
 from poekin.formats.mjcf import mjcf, mjcf_files
 from poekin.formats.mjcf.mjcf_files import MOST_COPIES
-from poekin.formats.text import xml
 
 mujoco = pytest.importorskip("mujoco", reason="the package mujoco is not installed")
 
@@ -190,7 +190,7 @@ def copied(element, times=1):
 
 @given(st.lists(replicas(), max_size=3))
 def test_elements_below_replicates_are_counted_as_often_as_they_are_copied(texts):
-    root = xml.parse(f"<mujoco>{''.join(texts)}</mujoco>", "x")
+    root = etree.fromstring(f"<mujoco>{''.join(texts)}</mujoco>")
     assert mjcf_files._copies(root) == len(list(copied(root)))
 
 
