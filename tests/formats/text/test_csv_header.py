@@ -110,6 +110,8 @@ def test_columns_that_come_first_have_no_unit_and_others_keep_theirs():
     np.testing.assert_array_equal(rows, [[5, 1000, 2000, 3, 4]])
     rows = read("X,Y,A,q,Time [s]\n1,2,3,4,5\n", columns._replace(units=()))
     np.testing.assert_array_equal(rows, [[5, 1, 2, 3, 4]])
+    for text in ("q,A,Y,X\n4,3,2,1\n", "1,2,3,4\n"):
+        np.testing.assert_array_equal(read(text, columns), [[1, 2, 3, 4]])
     with pytest.raises(InputError, match=r"^f\.csv:1: 'time' in deg; expected s$"):
         read("X,Y,A,q,time [deg]\n1,2,3,4,5\n", columns)
 
