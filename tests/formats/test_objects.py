@@ -112,6 +112,38 @@ def test_a_pair_that_makes_no_sense_is_refused(pair, frame, error, message):
         from_object(pair, frame=frame)
 
 
+TRANSPOSED, SWAPPED = ": transpose it", ": the pair is (M, screws), in this order"
+
+
+@pytest.mark.parametrize(
+    ("shape", "home", "remedy"),
+    [
+        ((), (4, 4), ""),
+        ((5,), (4, 4), ""),
+        ((7,), (4, 4), ""),
+        ((3, 6), (4, 4), TRANSPOSED),
+        ((7, 6), (4, 4), TRANSPOSED),
+        ((5, 7), (4, 4), ""),
+        ((7, 5), (4, 4), ""),
+        ((6, 2, 2), (4, 4), ""),
+        ((2, 6, 2), (4, 4), ""),
+        ((4, 4), (6,), SWAPPED),
+        ((4, 4), (6, 3), SWAPPED),
+        ((4, 4), (5, 3), ""),
+        ((4, 4), (7, 3), ""),
+        ((3, 3), (6, 3), ""),
+        ((5, 5), (6, 3), ""),
+    ],
+)
+def test_a_remedy_is_named_where_screws_are_rows_or_stand_before_the_home_pose(shape, home, remedy):
+    with pytest.raises(ShapeError) as caught:
+        from_object((np.zeros(home), np.zeros(shape)), frame="space")
+    assert str(caught.value) == (
+        "screws: expected shape (6, n), a column (omega; v) a joint as in Slist, got"
+        f" {shape}{remedy}"
+    )
+
+
 @pytest.mark.parametrize(
     ("thing", "name"),
     [
@@ -119,11 +151,12 @@ def test_a_pair_that_makes_no_sense_is_refused(pair, frame, error, message):
         ("arm.urdf", "str"),
         (np.eye(4), r"numpy\.ndarray"),
         ([], "list"),
+        ((1, 2, 3), "tuple"),
         ({}, "dict"),
         (SimpleNamespace(links=[]), r"types\.SimpleNamespace"),
         (SimpleNamespace(links=3), r"types\.SimpleNamespace"),
     ],
-    ids=["number", "text", "array", "list", "dict", "no links", "links that are none"],
+    ids=["number", "text", "array", "list", "three", "dict", "no links", "links that are none"],
 )
 def test_what_is_not_known_is_refused_by_its_type_and_told_what_is(thing, name):
     message = rf"expected a Pinocchio Model, .*DHRobot, .*ETS, or Modern Robotics' pair \(M, Slist\), got {name};"

@@ -230,11 +230,11 @@ def test_an_ets_of_the_toolbox_moves_as_it_says(sequence, seed):
 
 def test_coordinates_of_an_ets_are_in_the_order_of_jindex_and_shared_ones_have_what_is_left_of_their_limits():
     chain = from_object(
-        [et("Rz", jindex=4, qlim=[-2, 1]), et("tx", jindex=1, qlim=[-0.5, 0.5]),
+        [et("Rz", jindex=4, qlim=[-2, 1]), et("tx", jindex=1, qlim=[-3, 0.5]),
          et("Rz", jindex=4, qlim=[-1, 3]), et("ty", jindex=7)]
     )  # fmt: skip
     assert chain.q_names == ("q1", "q4", "q7")
-    assert chain.limits.tolist() == [[-0.5, 0.5], [-1, 1], [-math.inf, math.inf]]
+    assert chain.limits.tolist() == [[-3, 0.5], [-1, 1], [-math.inf, math.inf]]
     assert chain.coupling.tolist() == [[0, 1, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     assert chain.kinds == ("revolute", "prismatic", "revolute", "prismatic")
 
@@ -249,6 +249,17 @@ def test_a_joint_far_along_its_axis_is_revolute():
 def test_one_elementary_transform_is_a_chain_too():
     assert from_object(et("Ry")).screws.tolist() == [[0, 1, 0, 0, 0, 0]]
     assert from_object([et("tx", 0.3)]).dof == 0
+
+
+def test_a_joint_that_says_its_axis_alone_moves_along_it_from_zero_without_limits():
+    bare = [SimpleNamespace(isjoint=True, axis=axis) for axis in ("Rz", "tx", "Ry")]
+    for step in bare:
+        step.A = None
+    chain = from_object(bare)
+    assert chain.screws.tolist() == [[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 1, 0, 0, 0, 0]]
+    assert chain.home.tolist() == np.eye(4).tolist()
+    assert chain.q_names == ("q0", "q1", "q2")
+    assert not np.isfinite(chain.limits).any()
 
 
 class Listed:
@@ -359,6 +370,26 @@ def test_a_link_has_one_of_its_own_before_it_only_where_more_follows_a_joint():
     assert {(joint.parent, joint.child) for joint in made.joints} == {
         ("base_", "a_0"), ("a_0", "a"), ("a", "b"), ("a", "base_0"), ("base_0", "base"), ("b", "d"),
     }  # fmt: skip
+    steps = [et("Rz"), et("Ry"), et("tx"), et("tz")]
+    one = SimpleNamespace(name="a", parent=None, ets=steps)
+    made = from_object(SimpleNamespace(links=[one], name="one"))
+    ways = [(joint.parent, joint.child) for joint in made.joints]
+    assert ways == [("base", "a_0"), ("a_0", "a_1"), ("a_1", "a_2"), ("a_2", "a")]
+
+
+def test_joints_are_called_after_their_coordinates_and_fixed_ones_after_their_links():
+    robot = tree()
+    robot.tool = Spatial(elementary("tx", 0.5))
+    assert [joint.name for joint in from_object(robot).joints] == [
+        *("q0", "q1", "q2", "q2_", "a_joint", "d_joint", "base_tool_joint", "d_tool_joint"),
+    ]
+
+
+def test_a_transform_of_a_link_that_makes_no_sense_is_refused_with_the_link():
+    robot = tree()
+    robot.links[1].ets[0] = et("R")
+    with pytest.raises(InputError, match=r"^link 'b', transform 0: expected one of Rx, "):
+        from_object(robot)
 
 
 def test_a_tree_whose_links_miss_their_parent_is_refused():

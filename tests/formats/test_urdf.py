@@ -268,6 +268,9 @@ def test_of_two_elements_the_first_counts_as_with_other_readers(first, second):
     more = "\n".join([first, second, second, rest])
     with pytest.warns(PoekinWarning, match=r"counts \(the first of 2; the others on line 6\)$"):
         read(more)
+    beside = "\n".join([first, second + second, rest])
+    with pytest.warns(PoekinWarning, match=r"counts \(the first of 2; the others on line 5\)$"):
+        read(beside)
 
 
 @pytest.mark.parametrize("size", ["1e308", "5e-324", "1"])

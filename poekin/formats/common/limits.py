@@ -27,9 +27,9 @@ def known_effort(value: float | None) -> float:
 
 def known_loss(value: float | None) -> float:
     """Damping or friction; 0 where it is missing, negative or infinite."""
-    if value is None or not 0 < value < math.inf:
+    if value is None or not math.isfinite(value):
         return 0.0
-    return value
+    return max(0.0, value)
 
 
 def _known(value: float | None, absurd: float) -> float:

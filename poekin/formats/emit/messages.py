@@ -84,7 +84,7 @@ class EmittedFunction:
     @property
     def results(self) -> list[str]:
         """Arrays that the function writes, of "T" and "J"."""
-        return ["T"] * (self.poses > 0) + ["J"] * self.jacobian
+        return ["T"] * bool(self.poses) + ["J"] * self.jacobian
 
     @property
     def sizes(self) -> dict[str, int]:

@@ -82,7 +82,7 @@ def _read(at: int) -> Read:
     index = at // 2
     if at < 0:
         array = "q"
-        index = -1 - at
+        index = ~at
     return f"{array}{index}", array, index
 
 
@@ -109,8 +109,8 @@ def by_outputs(
 ) -> tuple[list[str | float], list[str | float]]:
     """Entries of the poses row by row, and those of J."""
     T: list[str | float] = []
-    for k in range(0, 12 * poses, 12):
-        T += [outputs[k + i] for i in (0, 1, 2, 9, 3, 4, 5, 10, 6, 7, 8, 11)]
+    for k in range(poses):
+        T += [outputs[12 * k + i] for i in (0, 1, 2, 9, 3, 4, 5, 10, 6, 7, 8, 11)]
         T += [0.0, 0.0, 0.0, 1.0]
     return T, list(outputs[12 * poses :])
 

@@ -37,12 +37,13 @@ def make_table(robot: Any) -> Table:
             f"expected a DHRobot with links that have {', '.join(_LINK)}, got {type_name(robot)}"
         )
     links = as_list(robot.links)
-    if len({bool(link.mdh) for link in links}) > 1:
+    modified, *others = {bool(link.mdh) for link in links}
+    if others:
         raise InputError(
             f"{type_name(robot)}: its links mix the standard and the modified convention"
         )
     return Table(
-        "modified" if links[0].mdh else "standard",
+        "modified" if modified else "standard",
         [_row(link) for link in links],
         base=getattr(robot, "base", None),
         tool=getattr(robot, "tool", None),

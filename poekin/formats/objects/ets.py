@@ -144,7 +144,7 @@ class _Tree:
         ends = np.array_equal(last, identity)
         for i, step in enumerate(steps):
             child = own
-            if i < len(steps) - 1 or not ends:
+            if step is not steps[-1] or not ends:
                 child = free_name(f"{own}_{i}", self.taken)
                 self.links.append(child)
             self._add_joint(step, parent, child, before @ step.origin)
@@ -162,8 +162,8 @@ class _Tree:
         origin: Array,
     ) -> None:
         coordinate = f"q{step.coordinate}"
+        mimic = Mimic(coordinate) if coordinate in self.used else None
         name = free_name(coordinate, self.used)
-        mimic = None if name == coordinate else Mimic(coordinate)
         axis = angular_part(step.screw) if step.kind == "revolute" else linear_part(step.screw)
         joint = Joint(
             name,

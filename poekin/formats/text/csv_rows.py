@@ -165,7 +165,7 @@ def _chosen(cells: Sequence[str], columns: Columns, here: str) -> _Chosen:
     known = (*columns.first, *columns.names, *columns.besides)
     headings = csv_header.headings(words, known)
     given = {heading.name for heading in headings}
-    if columns.first and given.issuperset(columns.first):
+    if given.issuperset(columns.first):
         columns = columns.with_first()
     if _is_header(words, columns.names):
         if given.isdisjoint(columns.last):

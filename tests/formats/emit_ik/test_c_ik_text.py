@@ -119,6 +119,69 @@ def test_where_solutions_meet_the_target_away_is_kept_only_if_it_has_none(count,
     assert len(found.T) == len(found.solutions) == kept
 
 
+def test_targets_are_drawn_within_half_a_turn_and_a_metre():
+    sizes = np.array([2 * np.pi, 0.0, LIFT.reach, confirmed.OUTSIDE])
+    drawn = np.concatenate(ik_vectors.targets(LIFT, closed_arm(LIFT), sizes).solutions)
+    angles, heights = np.transpose(drawn)
+    assert len(set(angles)) == len(set(heights)) == 8
+    # none of eight is beyond a quarter with a chance of 4^-8
+    assert 0.25 * np.pi < np.abs(angles).max() <= np.pi
+    assert 0.25 < np.abs(heights).max() <= 1.0
+
+
+def test_what_selects_solutions_has_as_much_room_as_the_emitted_program_gives_it(monkeypatch):
+    form = closed_arm(LIFT)
+    body = emit.c_ik(LIFT, name="lift").source
+    assert f"branches[{form.rows * 7}], pose[16], work[{(2 + 8) * 2}]" in body
+    shapes = []
+
+    def select(forward, placed, *arrays):
+        shapes.extend(a.shape for a in arrays)
+        return 0
+
+    monkeypatch.setattr(confirmed, "select", select)
+    ik_vectors.solutions(LIFT, form, np.array([2 * np.pi, 0.0, 1.0, 0.0]), np.eye(4))
+    assert shapes == [(4, 4), (form.rows, 3), (4,), (4, 4), (2 + 8, 2), (form.rows, 2)]
+
+
+class Margins:
+    """A form with branches of these margins, and one that is not filled in."""
+
+    def __init__(self, *margins):
+        self.rows = np.array([*([0.0] * 6 + [margin] for margin in margins), [np.nan] * 7])
+
+    def branches(self, T):
+        return self.rows
+
+
+@pytest.mark.parametrize("turned", range(3))
+def test_a_target_is_clear_where_the_least_singular_value_over_the_reach_is_above_a_thousandth(
+    turned,
+):
+    arm = PUMA.rebased(pk.se3.exp([*(0.5 * np.pi * np.eye(3)[turned]), 0, 0, 0]))
+    form = Margins(1.0, -1.0)
+    rng = np.random.default_rng(2)
+    found, wanted = [], []
+    for row in rng.uniform(-3, 3, (300, 6)):
+        row[4] = rng.uniform(0, 0.01)  # the wrist is stretched where that is 0
+        J = arm.jacobian(row, "hybrid") / np.repeat([1.0, arm.reach], 3)[:, None]
+        least = np.linalg.svd(J, compute_uv=False).min()
+        if abs(least - 1e-3) > 1e-12:  # rounding decides nearer than that
+            wanted.append(least > 1e-3)
+            found.append(ik_vectors._is_clear(arm, form, np.eye(4), row[None]))  # type: ignore[arg-type]
+    assert found == wanted
+    assert 0 < sum(wanted) < len(wanted)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_target_is_clear_where_each_margin_is_above_a_thousandth_on_either_side(sign):
+    q = np.full((1, 6), 0.5)
+    for margin, clear in ((1.01e-3, True), (1e-3, False), (0.99e-3, False)):
+        for margins in ((1.0, sign * margin), (sign * margin, -1.0)):
+            form = Margins(*margins)
+            assert ik_vectors._is_clear(PUMA, form, np.eye(4), q) == clear  # type: ignore[arg-type]
+
+
 def test_the_self_test_has_the_targets_counts_and_solutions_in_its_tables():
     T = np.arange(48.0).reshape(3, 4, 4)
     q = [np.array([[1.5, 2.5], [3.5, 4.5]]), np.empty((0, 2)), np.array([[5.5, 6.5]])]

@@ -139,6 +139,17 @@ def test_in_single_precision_samples_near_a_border_alone_fall_elsewhere(tmp_path
     np.testing.assert_allclose(best[same], wanted.reshape(-1)[same], rtol=0, atol=allowed)
 
 
+def test_it_has_a_kernel_for_each_batch_and_those_of_the_sweep():
+    batches = ["a_fk_batch", "a_jacobian_body_batch", "a_fk_jacobian_body_batch"]
+    sweeps: dict[Measure, list[str]] = {
+        "reach": ["a_sweep"],
+        "manipulability": ["a_sweep", "a_attained"],
+    }
+    for measure, kernels in sweeps.items():
+        text = emit.cuda(arm("one slide"), "body", name="a", measure=measure)
+        assert re.findall(r"__global__ void (\w+)\(", text) == [*batches, *kernels]
+
+
 def test_its_comment_names_the_arguments_of_the_kernels_that_it_has():
     chain = arm("one slide")
     kept: dict[Measure, str] = {"reach": "", "manipulability": ", best"}

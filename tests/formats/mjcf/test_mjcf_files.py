@@ -8,6 +8,9 @@ import itertools
 import os
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
 
 from poekin.errors import FileError, ModelError
 from poekin.formats.load import load
@@ -163,6 +166,46 @@ def test_copies_of_copies_are_counted():
         ModelError, match=r"^<text>: <replicate>: expected at most 5000 elements in copies$"
     ):
         mjcf.read_text(text.format(600))
+
+
+@st.composite
+def replicas(draw, deep=3):
+    """Elements, some of them <replicate>, below one another."""
+    inside = [draw(replicas(deep - 1)) for _ in range(draw(st.integers(0, 2)))] if deep else []
+    if not draw(st.booleans()):
+        return f"<body>{''.join(inside)}</body>"
+    count = draw(st.sampled_from(["0", "1", "2", "3", "0.5", "x", None]))
+    said = "" if count is None else f' count="{count}"'
+    return f"<replicate{said}>{''.join(inside)}</replicate>"
+
+
+def copied(element, times=1):
+    """The elements below one, each as often as it is copied there, where that is more than once."""
+    own = element.get("count", "1") if element.tag == "replicate" else "1"
+    times *= int(own) if own in ("2", "3") else 1
+    for child in element:
+        yield from [child] * times * (times > 1)
+        yield from copied(child, times)
+
+
+@given(st.lists(replicas(), max_size=3))
+def test_elements_below_replicates_are_counted_as_often_as_they_are_copied(texts):
+    root = etree.fromstring(f"<mujoco>{''.join(texts)}</mujoco>")
+    assert mjcf_files._copies(root) == len(list(copied(root)))
+
+
+@pytest.mark.parametrize(("most", "refused"), [(8, False), (7, True)])
+def test_as_many_copies_are_made_as_are_allowed_in_all_files_together(
+    folder, monkeypatch, most, refused
+):
+    monkeypatch.setattr(mjcf_files, "MOST_COPIES", most)
+    twice = '<worldbody><body/><replicate count="{}"><body/></replicate></worldbody>'
+    there = folder(a='<include file="b.xml"/>' + twice.format(3), b=twice.format(5))
+    if refused:
+        with pytest.raises(ModelError, match=f"expected at most {most} elements in copies$"):
+            load(there / "a.xml")
+    else:
+        assert len(load(there / "a.xml").links) == 1 + 2 + 8
 
 
 def test_keyframes_are_not_made():

@@ -94,7 +94,12 @@ def test_a_coordinate_that_is_not_finite_is_said(x):
 
 @pytest.mark.parametrize(
     ("range_", "limited", "effort"),
-    [("-3 3", "true", 3), ("-3 4", "true", np.inf), ("-3 3", "false", np.inf)],
+    [
+        ("-3 3", "true", 3),
+        ("-3 4", "true", np.inf),
+        ("-4 3", "true", np.inf),
+        ("-3 3", "false", np.inf),
+    ],
 )
 def test_the_effort_is_a_range_of_force_that_is_the_same_both_ways(range_, limited, effort):
     robot, _ = read(
@@ -104,6 +109,20 @@ def test_the_effort_is_a_range_of_force_that_is_the_same_both_ways(range_, limit
     (joint,) = robot.joints
     assert (joint.damping, joint.friction) == (0.5, 0.25)
     assert joint.effort == effort
+
+
+@pytest.mark.parametrize(("mass", "known"), [("1e-12", False), ("2e-12", True), ("0.5", True)])
+def test_a_mass_is_known_above_what_mujoco_has_to_hold(mass, known):
+    inertial = f'<inertial mass="{mass}" pos="1 2 3" diaginertia="1e-9 1e-9 1e-9"/>'
+    robot, said = read(f'<body name="a">{inertial}<joint/></body>')
+    assert said == []
+    assert robot.masses == ((LinkMass("a", float(mass), (1, 2, 3)),) if known else ())
+
+
+def test_bodies_that_float_freely_are_not_said_to_be_balls():
+    robot, said = read(f'<body name="a">{G}<freejoint name="f"/></body>')
+    assert said == []
+    assert [joint.kind for joint in robot.joints] == ["floating"]
 
 
 @pytest.mark.parametrize("bound", [0, 2, 3])

@@ -66,6 +66,10 @@ REFUSED = {
     "a quote that is left open": ('\n1;2;"3\n4;5;6\n', FileError, "f.csv:3: not CSV: unexpected end of data"),
     "a quote in the middle": ('1,2,"3"4\n', FileError, """f.csv:1: not CSV: ',' expected after '"'"""),
     "an empty cell": ("1,,3\n", InputError, "f.csv:1, column 2: a number expected, got ''"),
+    "the last one is empty": ("1,2,3\n4,5,\n", InputError, "f.csv:2, column 3: a number expected, got ''"),
+    "the last ones are empty": ("x;y;z\n4;;;\n", InputError, "f.csv:2, column 2: a number expected, got ''"),
+    "one of three and an empty one": ("1,2,3\n4,\n", InputError, "f.csv:2: 3 values expected (x, y, z), got 2"),
+    "one too many": ("1,2,3\n4,5,6, ,7\n", InputError, "f.csv:2: 3 values expected (x, y, z), got 5"),
     "too few at the end": ("1,2,\n", InputError, "f.csv:1: 3 values expected (x, y, z), got 2"),
 }  # fmt: skip
 
@@ -108,6 +112,22 @@ def test_lines_are_counted_whatever_comes_first():
     rows = csv_dialect.split(iter(["\n", "sep=;\n", "\n", "1;2\n", ";\n", "3;4\n"]), "f.csv")
     assert list(rows) == [(4, ["1", "2"]), (6, ["3", "4"])]
     assert list(csv_dialect.split(iter(["\n", " \n"]), "f.csv")) == []
+
+
+def test_lines_of_separators_alone_are_passed_over_however_many_there_are():
+    lines = [f"{','.join('123')}\n", *(f"{',' * count}\n" for count in range(1, 6)), "4,5,6\n"]
+    assert list(csv_dialect.split(iter(lines), "f.csv")) == [(1, [*"123"]), (7, [*"456"])]
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_blanks_in_a_cell_stay_where_they_are_no_separators(separator):
+    lines = [f"a  b{separator}c\n", f'" 1  2"{separator}3 \n']
+    rows = list(csv_dialect.split(iter(lines), "f.csv"))
+    assert rows == [(1, ["a  b", "c"]), (2, [" 1  2", "3 "])]
+    assert list(csv_dialect.split(iter(["a  b \n", " 1   2\n"]), "f.csv")) == [
+        (1, ["a", "b"]),
+        (2, ["1", "2"]),
+    ]
 
 
 def test_utf_16_is_named(tmp_path):

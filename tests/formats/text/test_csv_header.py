@@ -9,7 +9,15 @@ import pytest
 
 from poekin.errors import InputError, UnknownName
 from poekin.formats.text import csv_rows
-from poekin.formats.text.csv_header import Columns, Heading, headings, order
+from poekin.formats.text.csv_header import (
+    Columns,
+    Heading,
+    coordinate_names,
+    headings,
+    numbered,
+    numbered_coordinates,
+    order,
+)
 
 POSE = Columns(("X", "Y", "A", "q"), "column", ("mm", "mm", "deg", ""))
 
@@ -27,7 +35,10 @@ def read(text, columns=POSE):
         ("X [mm]", ("X", "mm")),
         ("x(MM)", ("X", "mm")),
         ("X_mm", ("X", "mm")),
+        ("x_MM", ("X", "mm")),
+        ("X\nY_mm", ("X\nY", "mm")),
         ("A_deg", ("A", "deg")),
+        ("a_Deg", ("A", "deg")),
         ("a [ degrees ]", ("A", "deg")),
         ("A (°)", ("A", "deg")),
         ("A [Rad]", ("A", "rad")),
@@ -99,6 +110,8 @@ def test_columns_that_come_first_have_no_unit_and_others_keep_theirs():
     np.testing.assert_array_equal(rows, [[5, 1000, 2000, 3, 4]])
     rows = read("X,Y,A,q,Time [s]\n1,2,3,4,5\n", columns._replace(units=()))
     np.testing.assert_array_equal(rows, [[5, 1, 2, 3, 4]])
+    for text in ("q,A,Y,X\n4,3,2,1\n", "1,2,3,4\n"):
+        np.testing.assert_array_equal(read(text, columns), [[1, 2, 3, 4]])
     with pytest.raises(InputError, match=r"^f\.csv:1: 'time' in deg; expected s$"):
         read("X,Y,A,q,time [deg]\n1,2,3,4,5\n", columns)
 
@@ -115,6 +128,10 @@ def test_columns_at_the_end_may_be_left_out_together():
     np.testing.assert_array_equal(read("1,2,3,4\n", columns), [[1, 2, 3, 4]])
     with pytest.raises(InputError, match="'q' is missing"):
         read("x,y,a\n", columns)
+    for count in (1, 3, 5):
+        words = rf"^f\.csv:1: 4 values expected \(X, Y, A, q\), got {count}$"
+        with pytest.raises(InputError, match=words):
+            read(",".join("1" * count) + "\n", columns)
 
 
 def test_the_time_that_a_word_takes_grows_as_its_length():
@@ -140,6 +157,34 @@ def test_coordinates_may_be_numbered_from_1_or_0(header):
     np.testing.assert_array_equal(read(f"{header}\n1,2\n", JOINTS), [[1, 2]])
     second_first = ",".join(reversed(header.split(",")))
     np.testing.assert_array_equal(read(f"{second_first}\n1,2\n", JOINTS), [[2, 1]])
+
+
+def test_names_of_coordinates_are_numbered_from_1_and_then_from_0():
+    assert numbered(0) == ()
+    assert numbered(4) == ("q1", "q2", "q3", "q4")
+    found = coordinate_names(("pan", "J1"))
+    assert found[:3] == (("q1", "q2"), ("pan", "J1"), ("q0", "q1"))
+    for stem in ("j", "joint", "joint_", "axis", "axis_", "theta"):
+        for start in (1, 0):
+            names = (f"{stem}{start}", f"{stem}{start + 1}")
+            # j1 is a name of the chain's own, in another case
+            assert (names in found) == (stem != "j")
+    assert len(found) == 3 + 5 * 2
+
+
+@pytest.mark.parametrize(
+    ("words", "count"),
+    [
+        ("x y", 0),
+        ("q1 q2 q3", 3),
+        ("Q1 q1 q2 time", 2),
+        ("joint_1_deg joint_2[rad] joint_3x q1", 2),
+        ("axis1 axis2 theta1", 2),
+        ("j10 j11 j1", 3),
+    ],
+)
+def test_coordinates_that_a_header_numbers_are_counted_by_their_most_frequent_stem(words, count):
+    assert numbered_coordinates(words.split()) == count
 
 
 def test_numbered_coordinates_say_their_units():

@@ -4,6 +4,7 @@ is.
 
 from __future__ import annotations
 
+import math
 import sys
 
 import pytest
@@ -97,6 +98,28 @@ def test_what_a_key_holds_is_given_as_what_it_is():
     assert keys.table("table", ["x"]).place == "f: table"
     assert [table.whole("x") for table in keys.tables("tables", ["x"])] == [1, 2]
     assert keys.tables("none", []) == []
+
+
+def test_tables_in_a_list_are_counted_from_1():
+    keys = toml_text.Keys({"rows": [{"x": k} for k in range(6)]}, "f")
+    assert [(t.place, t.whole("x")) for t in keys.tables("rows", ["x"])] == [
+        (f"f: rows {k + 1}", k) for k in range(6)
+    ]
+
+
+def test_a_whole_number_that_is_too_large_for_a_float_is_infinite():
+    keys = toml_text.Keys({"n": [10**400, -(10**400), -3]}, "f")
+    assert keys.array("n", (3,), finite=False).tolist() == [math.inf, -math.inf, -3]
+    with pytest.raises(ModelError, match=r"^f: n: expected finite numbers, got inf$"):
+        keys.array("n", (None,))
+
+
+@pytest.mark.parametrize("number", [2**53 + 2, 2**60, -1, -(2**60), 0.5, -0.5])
+def test_each_number_of_a_list_is_a_whole_one_from_0_on(number):
+    for row in ([number, 1], [1, number]):
+        with pytest.raises(ModelError) as caught:
+            toml_text.Keys({"n": row}, "f").wholes("n", (2,))
+        assert str(caught.value) == f"f: n: expected whole numbers from 0 on, got {number:g}"
 
 
 @pytest.mark.parametrize("number, whole", [(0, True), (2**53 - 1, True), (2**53, False)])

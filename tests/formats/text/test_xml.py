@@ -6,7 +6,7 @@ import warnings
 
 import pytest
 
-from poekin.errors import ModelError, PoekinWarning
+from poekin.errors import FileError, ModelError, PoekinWarning
 from poekin.formats import urdf
 from poekin.formats.mjcf import mjcf
 from poekin.formats.text import xml
@@ -121,6 +121,58 @@ def test_xml_1_1_is_read_with_and_without_a_slip():
 def test_a_document_type_is_refused_behind_a_slip(head):
     with pytest.raises(ModelError, match="DOCTYPE"):
         xml.parse(head + '<!DOCTYPE r [<!ENTITY e "x">]><r:robot name="&e;"/>', "f")
+
+
+def test_no_option_lets_the_parser_resolve_fetch_or_validate_anything():
+    asked = {name for name, value in xml.SAFE.items() if value}
+    assert asked == {"no_network", "remove_comments", "remove_pis"}
+    assert set(xml.SAFE) - asked == {
+        *("resolve_entities", "load_dtd", "dtd_validation", "attribute_defaults", "huge_tree"),
+    }
+
+
+def test_only_meshes_may_be_as_deep_as_they_like():
+    text = "<robot>" + "<a>" * 300 + "</a>" * 300 + "</robot>"
+    with pytest.raises(ModelError, match=r"^f:1: malformed XML: '.*depth"):
+        xml.parse(text, "f")
+    assert len(list(xml.parse(text, "f", huge=True).iter())) == 301
+
+
+def test_a_text_is_read_up_to_its_limit(monkeypatch):
+    for text, most, size in (
+        ("<robot/>", 8, "0.0"),
+        ("<robot>" + " " * 2**20 + "</robot>", 0, "1.0"),
+    ):
+        monkeypatch.setattr(xml, "MAX_BYTES", most or len(text))
+        assert xml.parse(text, "f").tag == "robot"
+        monkeypatch.setattr(xml, "MAX_BYTES", (most or len(text)) - 1)
+        with pytest.raises(ModelError) as caught:
+            xml.parse(text, "f")
+        assert str(caught.value) == f"f: expected at most 64 MiB, got {size} MiB"
+
+
+def test_a_file_of_text_is_read_up_to_its_limit_and_in_utf_8(tmp_path):
+    file = tmp_path / "a.txt"
+    file.write_bytes(b"\xef\xbb\xbf" + b"a" * 5117)
+    assert xml.read_text(file, 5120) == ("a" * 5117, str(file))
+    with pytest.raises(FileError) as caught:
+        xml.read_text(file, 3 * 2**10)
+    assert str(caught.value) == f"{file}: expected at most 3 KiB, the file has 5 KiB"
+    with pytest.raises(FileError, match=r"the file has 5 KiB$"):
+        xml.read_text(file, 5119)
+    file.write_bytes(b"a" * 37 + b"\xff")
+    with pytest.raises(FileError) as caught:
+        xml.read_text(file)
+    assert str(caught.value) == f"{file}: not UTF-8 at byte 37"
+
+
+def test_how_large_a_file_is_that_is_too_large_is_said_in_mib(tmp_path):
+    file = tmp_path / "a.txt"
+    with file.open("wb") as stream:
+        stream.truncate(100 * 2**20 + 2**19)  # a hole, which takes no room
+    with pytest.raises(FileError) as caught:
+        xml.read_bytes(file)
+    assert str(caught.value) == f"{file}: expected at most 64 MiB, the file has 100.5 MiB"
 
 
 def test_asking_what_a_file_is_tells_nothing(tmp_path):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -52,23 +54,24 @@ def solutions(chain: Chain, form: ClosedArm, sizes: Array, T: Array) -> Array:
 
 def targets(chain: Chain, form: ClosedArm, sizes: Array) -> Targets:
     """Targets away from where solutions meet, as far as the arm has such."""
-    rng = np.random.default_rng(1994)
-    T = []
-    expected = []
-    half = np.where(sizes[: chain.dof] > 0.0, np.pi, 1.0)
-    for _ in range(_DRAWN):
-        pose = chain.fk(rng.uniform(-half, half))
-        found = solutions(chain, form, sizes, pose)
-        if len(T) < COUNT and _is_clear(chain, form, pose, found):
-            T.append(pose)
-            expected.append(found)
+    drawn = list(itertools.islice(_drawn(chain, form, sizes), COUNT))
     away = chain.fk(np.zeros(chain.dof))
     away[0, 3] += 4.0 * chain.reach
     found = solutions(chain, form, sizes, away)
     if not len(found) or _is_clear(chain, form, away, found):
-        T.append(away)
-        expected.append(found)
-    return Targets(np.array(T), expected)
+        drawn.append((away, found))
+    return Targets(np.array([T for T, _ in drawn]), [found for _, found in drawn])
+
+
+def _drawn(chain: Chain, form: ClosedArm, sizes: Array) -> Iterator[tuple[Array, Array]]:
+    """Targets that are clear, and their solutions."""
+    rng = np.random.default_rng(1994)
+    half = np.where(sizes[: chain.dof] > 0.0, np.pi, 1.0)
+    for _ in range(_DRAWN):
+        pose = chain.fk(rng.uniform(-half, half))
+        found = solutions(chain, form, sizes, pose)
+        if _is_clear(chain, form, pose, found):
+            yield pose, found
 
 
 def _is_clear(chain: Chain, form: ClosedArm, pose: Array, found: Array) -> bool:
