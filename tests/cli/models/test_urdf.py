@@ -144,7 +144,9 @@ def test_names_survive_every_kind_of_terminal(tmp_path, monkeypatch, encoding):
     assert run(["urdf", str(path)]) == 0
     sys.stdout.flush()
     assert urdf.read_text(raw.getvalue()) == load(str(path))
-    assert not set("\u202e\x9b") & set(raw.getvalue().decode(encoding))
+    shown = raw.getvalue().decode(encoding)
+    assert not set("\u202e\x9b") & set(shown)
+    assert urdf.read_text(shown.encode()) == load(str(path))
 
 
 @pytest.fixture
