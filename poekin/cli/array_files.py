@@ -66,7 +66,7 @@ def read_configurations(
 def read_rows(
     given: str,
     columns: csv_rows.Columns,
-    progress: csv_rows.Progress,
+    progress: csv_rows.Progress | None,
     *,
     tail: tuple[int, ...] = (),
 ) -> Rows:
@@ -104,7 +104,7 @@ def _content(given: str) -> bytes:
 def _from_csv(
     given: str,
     columns: csv_rows.Columns,
-    progress: csv_rows.Progress,
+    progress: csv_rows.Progress | None,
 ) -> Rows:
     with csv_rows.opened(to_open(given), called(given)) as (stream, where, size):
         return csv_rows.read(stream, columns, where, progress, size)

@@ -206,7 +206,7 @@ NEAR = {
     "cli/ik": "own cli/ik_told cli/pages_told cli/poses_units cli/units cli/options",
     "cli/show": "own cli/reach cli/options",
     "cli/sweep/options": "cli/sweep_options cli/options cli/reach cli/top",
-    "cli/measured": "own cli/measured_told cli/repeats",
+    "cli/measured": "own cli/measured_told cli/repeats cli/calibrate",
     "cli/model": "own cli/coupling cli/vendor_files cli/from_ros cli/poses cli/options",
     "cli/poses": "own cli/poses_units cli/options cli/ik cli/units",
     "cli/draw": "own cli/compare",

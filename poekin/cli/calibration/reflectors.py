@@ -27,7 +27,7 @@ COLUMNS = ("from", "to", "distance", "sigma")
 def are_unknown(points: Sequence[str]) -> bool:
     """Whether --point says that nobody knows the points. Raises: InputError."""
     unknown = [text for text in points if text.strip().lower() == UNKNOWN]
-    if unknown and len(points) > 1:
+    if unknown and points[1:]:
         raise InputError(f"--point {UNKNOWN}: expected once and alone, for all points of the files")
     return bool(unknown)
 
@@ -87,7 +87,7 @@ def _read(given: str, count: int, convention: Convention) -> _Distances:
                 raise InputError(f"{here}: expected a {name} above 0, got {x:g} m")
         d[i, j] = d[j, i] = distance
         variances[i, j] = variances[j, i] = sigma**2
-    known = np.triu(~np.isnan(d), 1)
+    known = np.triu(~np.isnan(d))
     return _Distances(d, variances[known])
 
 

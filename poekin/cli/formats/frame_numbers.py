@@ -55,4 +55,4 @@ def _frames(result: Comparison, chosen: PoseLayout) -> Iterator[tuple[str, str, 
         ("tool of A in the tool of B", "tool_numbers", result.tool),
     ):
         if T is not None:
-            yield title, key, pose_rows.to_rows(np.asarray(T)[None], chosen)[0]
+            yield title, key, pose_rows.to_rows(np.asarray(T)[None], chosen).ravel()

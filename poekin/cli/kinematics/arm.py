@@ -169,18 +169,20 @@ class Results:
         """JSON with the configurations; of a single one without the axis of the batch."""
         head = heading(arm.robot, arm.chain, **self.extra)
         if single:
-            return as_json(head | {"q": arm.q[0], self.symbol: self.values[0]})
+            (q,), (value,) = arm.q, self.values
+            return as_json(head | {"q": q, self.symbol: value})
         return as_json(head | {"q": arm.q, self.symbol: self.values})
 
     def show(self, arm: ChainArguments) -> None:
         """Print the matrix of a single configuration."""
+        (q,), (value,) = arm.q, self.values
         say(f"{self.title}, at")
-        show_coordinates(arm.chain, arm.q[0], arm.units)
+        show_coordinates(arm.chain, q, arm.units)
         say()
         if self.columns:
-            matrix(self.values[0], self.rows, self.columns)
+            matrix(value, self.rows, self.columns)
         else:
-            matrix(self.values[0])
+            matrix(value)
 
 
 def show_coordinates(chain: Chain, q: np.ndarray, units: SaidUnits = SI) -> None:

@@ -100,7 +100,7 @@ class PoseResults(Results):
             "format": self.layout.format,
             "columns": list(self.layout.columns),
             "units": list(self.layout.units),
-            "numbers": rows[0] if single else rows,
+            "numbers": rows.ravel() if single else rows,
         }
         return replace(self, layout=None, extra=extra).json(arm, single)
 
@@ -111,12 +111,13 @@ class PoseResults(Results):
         chosen = self.layout
         if chosen is None:
             super().show(arm)
-            _show_numbers(self.values[0], self.units)
+            _show_numbers(self.values, self.units)
             return
+        (q,), (row,) = arm.q, self.array()
         say(f"{self.title.removesuffix(' (m)')} ({chosen.describe()}), at")
-        show_coordinates(arm.chain, arm.q[0], self.units)
+        show_coordinates(arm.chain, q, self.units)
         say()
-        say("  " + line(np.round(self.array()[0], DECIMALS), chosen))
+        say("  " + line(np.round(row, DECIMALS), chosen))
 
 
 def _with_units(chosen: PoseLayout, said: Sequence[str]) -> list[str]:
@@ -125,11 +126,11 @@ def _with_units(chosen: PoseLayout, said: Sequence[str]) -> list[str]:
 
 
 def _show_numbers(T: np.ndarray, units: SaidUnits) -> None:
-    """Print position, quaternion and roll, pitch, yaw of a pose."""
+    """Print position, quaternion and roll, pitch, yaw of a single pose (1, 4, 4)."""
     turned = layout("quat", "wxyz", mm=units.mm)
-    p, wxyz = np.split(pose_rows.to_rows(T[None], turned)[0], [3])
+    p, wxyz = np.split(pose_rows.to_rows(T, turned).ravel(), [3])
     angles = layout("rpy", deg=units.deg is not False)
-    rpy = pose_rows.to_rows(T[None], angles)[0, 3:]
+    rpy = pose_rows.to_rows(T, angles)[:, 3:].ravel()
     say()
     rows = (
         ("position", p, f"x y z, {turned.length}"),

@@ -141,14 +141,13 @@ def _report(found: Solution, reasons: dict[int, str], single: bool) -> dict[str,
 
 
 def _show(chain: Chain, found: Solution, units: SaidUnits) -> None:
+    (q,), (success,) = found.q, found.success
+    (position,), (rotation,) = found.position_error, found.rotation_error
     words = "not solved"
-    if found.success[0]:
-        words = (
-            f"solved, {1e3 * found.position_error[0]:.2g} mm"
-            f" and {np.degrees(found.rotation_error[0]):.2g}° off"
-        )
+    if success:
+        words = f"solved, {1e3 * position:.2g} mm and {np.degrees(rotation):.2g}° off"
     say(f"{name(chain.tip)} in {name(chain.base)}: {words}")
-    show_coordinates(chain, found.q[0], units)
+    show_coordinates(chain, q, units)
 
 
 def _complain(reasons: dict[int, str], count: int, single: bool) -> None:

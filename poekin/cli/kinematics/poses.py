@@ -121,9 +121,7 @@ def _read_file(given: str, chosen: PoseLayout, units: SaidUnits) -> Array:
     tail: tuple[int, ...] = ()
     if len(chosen.columns) == 16:
         tail = (4, 4)
-    columns = pose_columns(chosen)
-    with ProgressLine(f"reading {place}") as progress:
-        rows, _ = array_files.read_rows(given, columns, progress, tail=tail)
+    rows, _ = array_files.read_rows(given, pose_columns(chosen), None, tail=tail)
     return pose_rows.to_poses(rows, chosen, lambda i: f"{place}, row {i}")
 
 
@@ -185,7 +183,7 @@ def for_each(
     """The numbers of an option with one for all coordinates or one for each, in rad and m."""
     if text is None or len(words_of(text)) != 1:
         return coordinates(text, chain, option, units)
-    value = float(option_numbers(text, option)[0])
+    (value,) = option_numbers(text, option)
     if units.mm or units.deg:
         return units.to_si(np.full(chain.dof, value), chain)
-    return value
+    return float(value)

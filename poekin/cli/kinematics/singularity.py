@@ -77,7 +77,7 @@ def command(
         raise InputError("--at: coordinates expected, got nothing")
     arm = take(file, tip, base, [*words, *(q or ())], None, many=False, units=SaidUnits(mm, deg))
     chain = arm.chain
-    here = arm.q[0]
+    (here,) = arm.q
     result = singularity(chain, here, part=part.value if part else None, tolerance=tolerance)
     measures = manipulability(chain, here)
     drawn = None

@@ -116,8 +116,8 @@ class ViewOptions(NamedTuple):
         said = [name for name, value in given.items() if value is not None]
         if len(said) > 1:
             raise InputError(f"{said[0]} and {said[1]}: expected one of them, got both")
-        if self.q is not None and said and said[0] != "--compare":
-            raise InputError(f"--q: expected without {said[0]}, which says where the arm is")
+        if self.q is not None and self.other is None and said:
+            raise InputError(f"--q: expected without {said.pop()}, which says where the arm is")
         if self.pose is None and (format is not None or quaternion is not None):
             raise InputError("--format and --quaternion: expected together with --pose")
 
@@ -130,7 +130,7 @@ def _of_robot(robot: Robot, asked: ViewOptions, format: str | None, quaternion: 
     chain = robot.chain(base=asked.base, tip=asked.tip)
     around = robot if asked.meshes else None
     if asked.pose is not None:
-        T = poses.read([asked.pose], None, format, quaternion, units)[0]
+        (T,) = poses.read([asked.pose], None, format, quaternion, units)
         found = ik_all(chain, T) if chain.dof <= MOST_COORDINATES else ik(chain, T)
         return view(found, robot=around)
     if asked.path is not None:

@@ -90,6 +90,11 @@ Workers = Annotated[
     Option("--workers", min=1, help="Number of threads (default: one for each processor)."),
 ]
 
+_PARTS: dict[MeasureName, ErrorPart] = {
+    MeasureName.position_error: "position",
+    MeasureName.orientation_error: "orientation",
+}
+
 
 def mask_from(robot: Robot, chain: Chain, self_collision: bool) -> SelfCollision | None:
     """Mask by the robot's collision geometry, if it is asked for."""
@@ -100,16 +105,15 @@ def measure_from(
     name: MeasureName, chain: Chain, angle: float | None, length: float | None
 ) -> Measure:
     """The measure of a name. Raises: InputError where its errors are not given, or not asked for."""
-    is_error = name in (MeasureName.position_error, MeasureName.orientation_error)
+    part = _PARTS.get(name)
     is_given = angle is not None or length is not None
-    if is_error != is_given:
+    if (part is not None) != is_given:
         raise InputError(
             "--sigma-angle, --sigma-length: expected, one or both, with --measure position_error or "
             "orientation_error, and with no other"
         )
-    if not is_error:
+    if part is None:
         return measure_of(name.value)  # type: ignore[arg-type]  # its names are some of those
-    part: ErrorPart = "position" if name is MeasureName.position_error else "orientation"
     # a coordinate that slides is off by a length
     offset = np.where(angle_mask(chain), angle or 0.0, length or 0.0)
     return PoseUncertainty.by_tolerances(
@@ -132,5 +136,5 @@ def count_from(text: str) -> int:
 
 def samples_from(chain: Chain, text: str, seed: int, by: DrawnName) -> Random | PoseSamples:
     """Random configurations, or poses. Raises: InputError."""
-    kind = PoseSamples if by is DrawnName.poses else Random
-    return kind.of(chain, count_from(text), seed)
+    kinds = {DrawnName.configurations: Random, DrawnName.poses: PoseSamples}
+    return kinds[by].of(chain, count_from(text), seed)

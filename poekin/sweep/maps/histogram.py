@@ -147,7 +147,7 @@ def _tried(
     values = []
     for keep in _BOTH:
         found = top(chain, measure, 1, keep=keep, samples=few)
-        values.append(found.values[0])
+        values.extend(found.values)
     lower = float(min(values))
     upper = float(max(values))
     room = _ROOM * (upper - lower) or 1.0

@@ -280,9 +280,10 @@ class SelfCollision(Result):
             Lines such as "64 spheres on 8 links, within 83 mm of the geometry".
         """
         count = len(self.moved)
-        lines = [f"{len(self.spheres)} spheres on {count} links, {len(self.pairs)} pairs of links"]
+        numbers = f"{len(self.spheres)} spheres on {count} links, {len(self.pairs)} pairs of links"
         if self.excess:
-            lines[0] += f"; they stand out of the geometry by up to {1e3 * self.excess:.3g} mm"
+            numbers += f"; they stand out of the geometry by up to {1e3 * self.excess:.3g} mm"
+        lines = [numbers]
         for words, left in (("adjacent", self.adjacent), ("always touching", self.always)):
             names = ", ".join(f"{pair.first} - {pair.second}" for pair in left)
             lines.append(f"left out, {words}: {names or 'none'}")

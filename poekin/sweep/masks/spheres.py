@@ -75,7 +75,7 @@ def _checked(robot: Robot, one: Any, where: str) -> LinkSphere:
 
 
 def _moved(robot: Robot, chain: Chain, spheres: list[LinkSphere]) -> MovedLink:
-    link = spheres[0].link
+    (link,) = {sphere.link for sphere in spheres}
     way = robot.chain(chain.base, link)
     # two ways in a tree that begin at one link part once
     both = zip(chain.joint_names, way.joint_names, strict=False)

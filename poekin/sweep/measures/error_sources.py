@@ -152,4 +152,5 @@ def _sizes(values: ArrayLike, count: int, what: str) -> Array:
 
 
 def _size(value: float, what: str) -> float:
-    return float(_sizes([value], 1, what)[0])
+    (size,) = _sizes([value], 1, what)
+    return float(size)

@@ -158,11 +158,12 @@ class Outcome(Result):
         elif self.finding:
             lines = [self._tried(), *self._counterexample(before)]
         else:
-            lines = [self._tried()]
+            tried = self._tried()
             if self.examples < FEW:
-                lines[0] += ", which say little"
+                tried += ", which say little"
             if self.late:
-                lines[0] += "; the time ran out"
+                tried += "; the time ran out"
+            lines = [tried]
         return f"{self.word:10} {self.law}: " + "\n           ".join([self.says, *lines])
 
     def _tried(self) -> str:

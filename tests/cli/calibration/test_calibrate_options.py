@@ -8,7 +8,7 @@ import pytest
 import poekin as pk
 from poekin.cli.calibration import calibrate as command
 from poekin.cli.calibration.options import columns
-from poekin.errors import InputError
+from poekin.errors import InputError, join_names
 from poekin.solve.calibration.measurements import data
 
 UR5E = pk.load("ur5e").chain(tip="tool0")
@@ -75,8 +75,13 @@ def test_a_list_may_have_commas_and_may_be_repeated():
     assert command._kinds(None) == ("screws", "home")
     assert command._kinds(["auto"]) == "auto"
     assert command._kinds(["screws,home", "offsets"]) == ("screws", "home", "offsets")
-    with pytest.raises(InputError, match=r"^--parameters: expected some of .*, or auto alone, got"):
-        command._kinds(["screws", "auto"])
+    for words, wrong in ((["screws", "auto"], "auto"), (["a"], "a"), (["auto", "b"], "auto")):
+        with pytest.raises(InputError) as refused:
+            command._kinds(words)
+        assert str(refused.value) == (
+            f"--parameters: expected some of {join_names(command.KNOWN, len(command.KNOWN))}, or auto"
+            f" alone, got {wrong!r}"
+        )
 
 
 def test_what_is_known_before_has_its_unit():

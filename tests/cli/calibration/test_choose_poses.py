@@ -78,6 +78,7 @@ OPTIONS = {
     "kind": (["--kind", "poses"], {}),
     "criterion": (["--criterion", "O1"], {"criterion": "O1"}),
     "parameters": (["--parameters", "screws", "--joints", "turn"], {"parameters": ["screws"], "joints": ["turn"]}),
+    "points of nothing else": (["--kind", "points"], {"measurements": Points([[0, 0, 0]])}),
     "point": (["--point", "0.1,0,0.2"], {"measurements": Points([[0, 0, 0]], points=POINT)}),
     "points": (
         ["--point", "0.1,0,0.2", "--point", "0 .1 0"],

@@ -100,6 +100,7 @@ def test_words_and_measures_are_those_of_the_functions(poekin):
     [
         (["--at", "0", "0"], "7 coordinates expected (panda_joint1, "),
         (["--at", "0", "0"], "panda_joint7), got 2\n"),
+        (["--at", "0", "--tip", "panda_hand"], "panda_joint7), got 1\n"),
         (["--at", ""], "--at: coordinates expected, got nothing"),
         (["--at", "a", *AWAY[1:]], "coordinate 1: a number expected, got 'a'"),
         (["--at", "nan", *AWAY[1:]], "q: expected one finite configuration (7,)"),

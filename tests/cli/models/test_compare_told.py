@@ -10,8 +10,6 @@ import pytest
 
 from poekin.cli.models import compare
 
-MODELS = ["ur5e", "ur5e", "--samples", "3"]
-
 
 class Page:
     """A page that is as good as empty."""
@@ -22,17 +20,20 @@ class Page:
 
 @pytest.mark.parametrize(("more", "told"), [([], True), (["--json"], False)])
 def test_a_page_has_the_names_of_both_and_is_told_of_last(
-    more, told, tmp_path, monkeypatch, poekin
+    more, told, crane, tmp_path, monkeypatch, poekin
 ):
     monkeypatch.chdir(tmp_path)
+    other = Path(crane).read_text(encoding="utf-8").replace('"crane"', '"other"')
+    Path("other.urdf").write_text(other, encoding="utf-8")
+    models = [crane, "other.urdf", "--tip", "hook", "--samples", "3"]
     titles = []
     monkeypatch.setattr(compare, "comparison_scene", lambda result, title: titles.append(title))
     monkeypatch.setattr(compare, "page", lambda scene: Page())
-    code, out, err = poekin("compare", *MODELS, "--draw", "page.html", *more)
-    assert (code, err, titles) == (0, "", ["ur5e and ur5e"])
+    code, out, err = poekin("compare", *models, "--draw", "page.html", *more)
+    assert (code, err, titles) == (0, "", ["crane and other"])
     assert (out.endswith("drawn in 'page.html'\n"), "drawn in" in out) == (told, told)
     assert Path("page.html").read_text(encoding="utf-8") == "a page"
-    assert poekin("compare", *MODELS, *more)[1] == out.removesuffix("drawn in 'page.html'\n")
+    assert poekin("compare", *models, *more)[1] == out.removesuffix("drawn in 'page.html'\n")
 
 
 @pytest.mark.parametrize(

@@ -135,7 +135,7 @@ def test_a_joint_whose_drive_is_no_number_is_one_message_and_nothing_is_written(
     assert not (tmp_path / "out.urdf").exists()
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "ascii"])
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "ascii", "windows-1252"])
 def test_names_survive_every_kind_of_terminal(tmp_path, monkeypatch, encoding):
     path = tmp_path / "x.urdf"
     path.write_text('<robot name="ü→&#x9b;"><link name="\u202e腕"/></robot>', encoding="utf-8")
@@ -144,7 +144,9 @@ def test_names_survive_every_kind_of_terminal(tmp_path, monkeypatch, encoding):
     assert run(["urdf", str(path)]) == 0
     sys.stdout.flush()
     assert urdf.read_text(raw.getvalue()) == load(str(path))
-    assert not set("\u202e\x9b") & set(raw.getvalue().decode(encoding))
+    shown = raw.getvalue().decode(encoding)
+    assert not set("\u202e\x9b") & set(shown)
+    assert urdf.read_text(shown.encode()) == load(str(path))
 
 
 @pytest.fixture

@@ -60,7 +60,7 @@ def test_the_table_and_the_lines_have_the_errors_and_notes_of_each_chain(capsys)
             1.5,
             5e-15,
             1e-3,
-            3.3e-15,
+            3.3349e-15,
             math.inf,
             {"q": 0.25, "p": -1 / 3},
             "ends above 'x'",
@@ -76,7 +76,7 @@ def test_the_table_and_the_lines_have_the_errors_and_notes_of_each_chain(capsys)
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].endswith(" against Pinocchio, each ÷ R; the bar is 2e-14")
     assert [re.split(r" {2,}", line) for line in lines[3:5]] == [
-        ["two", "FAIL", "a → c", "4", "2.5e-14", "0.001", "3.3e-15", "inf"],
+        ["two", "FAIL", "a → c", "4", "2.5e-14", "0.001", "3.33e-15", "inf"],
         ["one", "pass", "a → b", "1", "1e-15", "2e-15", "3e-15", "4e-15"],
     ]
     assert lines[5:] == [

@@ -69,7 +69,7 @@ def test_a_second_model_is_laid_over_the_first(scene, crane, tmp_path):
     other = tmp_path / "other.urdf"
     text = Path(crane).read_text()
     other.write_text(
-        text.replace(
+        text.replace('"crane"', '"other"').replace(
             '<axis xyz="1 0 0"/>', '<axis xyz="0.9999500004166653 0 0.009999833334166664"/>'
         )
     )
@@ -77,7 +77,7 @@ def test_a_second_model_is_laid_over_the_first(scene, crane, tmp_path):
     assert len(found["arms"]) == 2
     assert found["exaggerated"] > 1
     assert found["q"] == [0.5, 0.5]
-    assert found["title"] == "crane and crane"
+    assert found["title"] == "crane and other"
 
 
 def test_a_path_is_played_with_its_times(scene, crane, tmp_path):

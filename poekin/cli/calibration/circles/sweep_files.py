@@ -11,6 +11,7 @@ import numpy as np
 from ....errors import InputError, UnknownName, join_names, quote, suggest
 from ....formats.text.csv_header import numbered, numbered_coordinates
 from ....groups.arrays import Array
+from ....model import screw
 from ....model.chain import Chain
 from ....progress_line import ProgressLine
 from ....solve.calibration.circles.joint_sweep import HELD, JointSweep
@@ -23,8 +24,8 @@ from ...model import STANDARD_INPUT, STDIN
 
 SWEEP = re.compile(r"sweep of joint (\d+)")
 """A sweep as messages of the library call it."""
-_TURNS = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
-_SLIDES = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+_TURNS = screw.revolute(np.ones(3), np.zeros(3))
+_SLIDES = screw.prismatic(np.ones(3))
 
 
 class SweepFile(NamedTuple):

@@ -69,14 +69,13 @@ def cone(text: str | None, units: SaidUnits, point: Array) -> ViewCone | None:
     if text is None:
         return None
     numbers = _numbers(text, "--cone", 7, "a place, a direction and an angle")
-    apex, axis, angle = np.split(numbers, [3, 6])
+    apex, axis, (half_angle,) = np.split(numbers, [3, 6])
     if units.mm:
         apex = apex / 1000.0
-    half_angle = float(angle[0])
     if units.deg:
-        half_angle = float(np.deg2rad(half_angle))
+        half_angle = np.deg2rad(half_angle)
     try:
-        return ViewCone(apex, axis, half_angle, point)
+        return ViewCone(apex, axis, float(half_angle), point)
     except InputError as fault:
         raise InputError(f"--cone: {fault}") from fault
 

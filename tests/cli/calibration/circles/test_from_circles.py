@@ -87,6 +87,15 @@ def test_names_units_and_poses_are_as_said(as_json, tmp_path):
     np.testing.assert_allclose(found["chain"]["screws"], SCARA.screws, rtol=0, atol=1e-11)
 
 
+def test_a_column_that_is_ignored_changes_nothing(as_json, refused, files):
+    expected = as_json(*ARM, *files)
+    for path in files:
+        head, *rows = path.read_text().splitlines()
+        path.write_text("\n".join([f"{head},note", *(f"{row},warm" for row in rows)]))
+    assert as_json(*ARM, *files, "--ignore", "note") == expected
+    assert "'note'" in refused(*ARM, *files)
+
+
 def test_sweeps_that_do_not_agree_are_the_first_line_and_exit_code_1(poekin, tmp_path):
     other = SCARA.retooled(se3.pose(np.eye(3), [0.0, 0.0, 0.01]))
     sweeps = sweep_all(SCARA, HELD, noise=1e-6)
@@ -138,10 +147,12 @@ def test_a_sweep_of_each_joint_is_expected_and_one(refused, files, which, messag
 
 def test_files_of_another_kind_are_refused(refused, files, tmp_path):
     place = f"'{files[1]}'"
-    files[1].write_text("q1,q2,x,y,z\n0,0,1,1,1\n")
+    files[1].write_text("q1,q2,x,y,z\n" + "".join(f"0.{k},0,{k},1,1\n" for k in range(5)))
     assert "--prismatic: no joint 'q3'" in refused(*ARM, *files)
     message = said(refused("from-circles", *files))
     assert message == f"{place}: columns of 2 joints, and of 4 in '{files[0]}'"
+    message = said(refused("from-circles", files[1], *files[2:], files[0]))
+    assert message == f"'{files[2]}': columns of 4 joints, and of 2 in {place}"
     files[1].write_text("q1,q2,q3,q4,x1,y1,z1,x2,y2,z2\n0,0,0,0,1,1,1,1,1,1\n")
     message = said(refused(*ARM, *files))
     assert message == f"{place}: expected one point a line, or poses, got x1, y1, z1, x2, y2, z2"
