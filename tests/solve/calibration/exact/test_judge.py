@@ -39,7 +39,9 @@ def fit_of(deviations: Any, moved: Any = 0.0, seed: int = 0) -> Propagation:
     e /= np.sqrt(np.mean(e**2, axis=(0, 2), keepdims=True))
     errors = e.reshape(N, 6) * np.repeat(np.asarray(deviations, float), 3)
     J = np.broadcast_to(np.asarray(moved, float), (N, 6, 2))
-    return Propagation(errors, np.zeros((N, 6, 1)), np.zeros((1, N, 6)), J, np.repeat([2.0, 3.0], 3))
+    return Propagation(
+        errors, np.zeros((N, 6, 1)), np.zeros((1, N, 6)), J, np.repeat([2.0, 3.0], 3)
+    )
 
 
 def test_residuals_of_rounded_poses_bear_their_digits_out():
