@@ -37,7 +37,7 @@ def fit_of(deviations: Any, moved: Any = 0.0, seed: int = 0) -> Propagation:
     e = np.random.default_rng(seed).normal(size=(N, 6))
     e = e.reshape(N, 2, 3)
     e /= np.sqrt(np.mean(e**2, axis=(0, 2), keepdims=True))
-    errors = e.reshape(N, 6) * np.repeat(np.asarray(deviations, float), 3)
+    errors = e.reshape(N, 6) * np.repeat(np.broadcast_to(deviations, 2), 3)
     J = np.broadcast_to(np.asarray(moved, float), (N, 6, 2))
     return Propagation(
         errors, np.zeros((N, 6, 1)), np.zeros((1, N, 6)), J, np.repeat([2.0, 3.0], 3)
@@ -110,6 +110,14 @@ def test_digits_of_readings_that_the_residuals_refute_were_not_rounded():
     # their digits are those at which the residuals are not too small any more
     assert exact.largest.joints.max() <= 1e-5
     assert exact.largest.rotation == ROTATIONS.radius
+
+
+def test_readings_of_few_digits_are_exact_where_the_residuals_are_rounding():
+    moved = np.zeros((6, 2))
+    moved[0, 0], moved[1, 1] = 1.0, 1.0
+    found = judge(NONE._replace(angles=ANGLES, lengths=LENGTHS), fit_of(1e-15, moved), CHAIN)
+    assert found.digits == NONE
+    assert found.largest.joints.tolist() == [0.0, 0.0]
 
 
 def _with(deviations: np.ndarray, moved: np.ndarray, of_joints: np.ndarray) -> Propagation:
