@@ -129,7 +129,7 @@ NEAR = {
     "solve/csv_io": "own solve/motions solve/path_result solve/trajectory cli/array_files",
     "solve/effects/search": "own solve/effects/diagnosis solve/outliers_explained solve/calibrate",
     "solve/exact/errors solve/exact/bounds": (
-        "solve/judge solve/bounds solve/errors solve/digits solve/from_fk cli/exact"
+        "solve/judge solve/hints solve/bounds solve/errors solve/digits solve/from_fk cli/exact"
     ),
     "solve/timing": "solve/motions solve/time_optimal solve/path_result solve/follow solve/plot",
     "solve/error_model": (
