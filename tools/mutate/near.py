@@ -231,7 +231,7 @@ NEAR = {
         "solve/refusals solve/fitting solve/calibrate solve/compensation solve/covariance"
     ),
     "solve/residual_vectors": "own solve/unknown_points",
-    "solve/separations": "solve/unknown_points",
+    "solve/separations": "own solve/unknown_points",
     "analysis/axes analysis/shapes": _AXES,
     "analysis/axis_lines": f"own analysis/lines {_COMPARES}",
     "analysis/compare/compare": f"{_COMPARES} analysis/length_unit",
