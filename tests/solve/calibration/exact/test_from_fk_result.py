@@ -69,8 +69,9 @@ def result(remarks: tuple[str, ...] = ()) -> FromFk:
     fit = FIT._replace(errors=np.array([[1.0, -4, 2, 5, 6, -7.5], [3, 0, 0, 7, 0, 0]]) * 1e-6)
     bounds = np.zeros((6, 6))
     bounds[2, 1], bounds[4, 5], bounds[0, 3] = 1.1e-5, 2.2e-5, 2.1e-5
-    pairs = [PoseErrors(np.asarray(a), np.asarray(b)) for a, b in ((3e-6, 4e-5), (5e-6, 6.0e-5))]
-    return FromFk(FOUND, "", LARGEST, bounds, *pairs, remarks, fit)
+    typical = PoseErrors(np.array(3e-6), np.array(4e-5))
+    worst = PoseErrors(np.array(5e-6), np.array(6e-5))
+    return FromFk(FOUND, "", LARGEST, bounds, typical, worst, remarks, fit)
 
 
 def test_the_summary_has_the_largest_of_all_in_micrometres_and_microradians():

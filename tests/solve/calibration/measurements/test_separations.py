@@ -50,6 +50,7 @@ def test_the_known_distances_are_in_the_order_of_the_rows_above_the_diagonal():
         (f"point {k}", 3, "plate") for k in (1, 2, 3, 4)
     ]
     part = found.subset(np.array([3, 1]))
+    assert isinstance(part, Separations)
     assert list(map(tuple, part.pairs.tolist())) == [PAIRS[3], PAIRS[1]]
     assert part.measured.tolist() == [0.5, 0.4]
 
