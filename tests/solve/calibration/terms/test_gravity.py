@@ -7,7 +7,13 @@ import pytest
 
 import poekin as pk
 from poekin.solve.calibration.model.error_model import ErrorModel
-from poekin.solve.calibration.terms.gravity import STANDARD_GRAVITY, point_mass, wrist, wrist_in_tip
+from poekin.solve.calibration.terms.gravity import (
+    STANDARD_GRAVITY,
+    levers,
+    point_mass,
+    wrist,
+    wrist_in_tip,
+)
 
 TIP = pk.se3.pose(pk.so3.exp([0.3, -0.2, 0.5]), [0.7, 0.2, 0.9])
 AXES = [([0, 0, 1.0], [0.0, 0, 0]), ([0, 1.0, 0], [0.4, 0, 0.5]), ([1.0, 0, 0], [0, 0.1, 0.7]),
@@ -39,9 +45,12 @@ def test_the_wrist_is_nearest_to_the_last_three_axes_that_turn(slide, along):
     np.testing.assert_allclose(in_tip, found, rtol=0, atol=1e-12)
 
 
-def test_on_parallel_axes_the_wrist_is_beside_the_tip():
-    screws = [pk.screw.revolute([0, 0, 1.0], [0.5, y, 0]) for y in (0.0, 0.1, 0.5)]
-    np.testing.assert_allclose(wrist(arm(*screws)), [0.5, 0.2, 0.9], rtol=0, atol=1e-12)
+@pytest.mark.parametrize("tilt", [0.0, 1e-11])
+def test_on_parallel_axes_the_wrist_is_beside_the_tip(tilt):
+    """They would meet 1e10 m away."""
+    places = [(0.5, 0.0, 0), (0.5, 0.1, 0), (0.5, 0.5, 0)]
+    screws = [pk.screw.revolute([0, k * tilt, 1.0], place) for k, place in enumerate(places)]
+    np.testing.assert_allclose(wrist(arm(*screws)), [0.5, 0.2, 0.9], rtol=0, atol=1e-9)
 
 
 def test_where_nothing_turns_the_wrist_is_the_tip():
@@ -74,3 +83,18 @@ def test_a_torque_is_that_of_the_mass_in_newton_metres():
     (parameter,) = model.parameters
     assert (parameter.what, parameter.unit) == ("compliance", "rad/(N m)")
     np.testing.assert_allclose(model.basis(np.zeros((1, 1))), [[[1.5 * STANDARD_GRAVITY]]])
+
+
+def test_gravity_is_that_of_the_general_conference_of_1901():
+    assert STANDARD_GRAVITY == 9.80665
+
+
+def test_a_lever_is_that_of_the_wrist_in_metres():
+    screws = [pk.screw.revolute(direction, place) for direction, place in AXES]
+    chain = arm(*screws)
+    model = ErrorModel(chain, ("compliance",), None)
+    q = np.random.default_rng(0).normal(size=(3, 4))
+    every = levers(chain, q, np.tile([0.0, 0, -1], (3, 1)), wrist_in_tip(chain))
+    owners = [chain.q_names.index(p.owner) for p in model.parameters]
+    assert {p.unit for p in model.parameters} == {"rad/m"}
+    np.testing.assert_allclose(model.basis(q).sum(axis=1), every[:, owners], rtol=0, atol=1e-12)
