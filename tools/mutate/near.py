@@ -131,10 +131,14 @@ NEAR = {
     ),
     "solve/circles/": "own solve/fitting",
     "solve/csv_io": "own solve/motions solve/path_result solve/trajectory cli/array_files",
-    "solve/effects/search": "solve/effects/diagnosis solve/outliers_explained solve/calibrate",
-    "solve/exact/errors solve/exact/bounds": "solve/bounds solve/errors solve/digits solve/from_fk cli/exact",
+    "solve/effects/search": "own solve/effects/diagnosis solve/outliers_explained solve/calibrate",
+    "solve/exact/errors solve/exact/bounds": (
+        "solve/judge solve/hints solve/bounds solve/errors solve/digits solve/from_fk cli/exact"
+    ),
     "solve/timing": "solve/motions solve/time_optimal solve/path_result solve/follow solve/plot",
-    "solve/error_model": "solve/auto solve/calibrate solve/covariance solve/masses solve/fitting",
+    "solve/error_model": (
+        "solve/model/problem solve/auto solve/calibrate solve/covariance solve/masses solve/fitting"
+    ),
     "solve/ik_all/ik_all": (
         "own solve/swivel solve/ik_all_places solve/ik_all_search solve/ik solve/ik_few_coordinates"
     ),
@@ -224,14 +228,14 @@ NEAR = {
         "solve/report/summary solve/unknown_points_told solve/uncertainty solve/calibrate solve/toml_io"
     ),
     "solve/problem": (
-        f"{_FRAMES} solve/refusals solve/outliers_explained solve/fitting solve/calibrate solve/choose"
+        f"own {_FRAMES} solve/refusals solve/outliers_explained solve/fitting solve/calibrate solve/choose"
         " solve/residual_vectors"
     ),
     "solve/fitted_problem": (
         "solve/refusals solve/fitting solve/calibrate solve/compensation solve/covariance"
     ),
     "solve/residual_vectors": "own solve/unknown_points",
-    "solve/separations": "solve/unknown_points",
+    "solve/separations": "own solve/unknown_points",
     "analysis/axes analysis/shapes": _AXES,
     "analysis/axis_lines": f"own analysis/lines {_COMPARES}",
     "analysis/compare/compare": (

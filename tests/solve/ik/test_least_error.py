@@ -102,3 +102,19 @@ def test_a_slope_of_two_joints_that_do_the_same_is_gone_down_by_both_alike():
 
     q = least_error(trough, np.zeros(2), *FREE)
     np.testing.assert_allclose(q, 0.5 * (1 - 0.9**30), rtol=1e-4)
+
+
+@pytest.mark.parametrize("idle", [0, 1])
+def test_a_joint_that_moves_nothing_is_damped_as_much_as_the_joint_that_does(idle):
+    """A descent of rounding, 1e-20, does not turn it: 30 steps of at most 1e-20 / 1e-13."""
+    moving = 1 - idle
+
+    def level(q):
+        off = 1.0 - q[moving]
+        H, g = np.zeros((2, 2)), np.full(2, 1e-20)
+        H[moving, moving], g[moving] = 1.0, 0.1 * off
+        return float(off**2), H, g
+
+    q = least_error(level, np.zeros(2), *FREE)
+    np.testing.assert_allclose(q[moving], 1 - 0.9**30, rtol=1e-4)
+    assert 0 <= q[idle] <= 30 * 1e-7

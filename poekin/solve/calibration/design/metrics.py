@@ -42,7 +42,7 @@ def design_metrics(design: Design, rows: np.ndarray) -> DesignMetrics:
     size = design.blocks.shape[2]
     chosen = design.blocks[rows].reshape(-1, size)
     J = np.concatenate([chosen, design.before.reshape(-1, size)])
-    _, s, Vt = np.linalg.svd(qr_r(J), full_matrices=False)
+    _, s, Vt = np.linalg.svd(qr_r(J))
     if len(s) < size or s[-1] <= RANK * s[0]:
         return DesignMetrics(*observability.UNOBSERVED, np.inf)
     indices = observability.from_singular_values(s, len(rows) + len(design.before))

@@ -12,7 +12,7 @@ from ....analysis.axis_lines import nearest_point
 from ....errors import join_names
 from ....formulas.statics import gravity
 from ....groups.arrays import Array
-from ....groups.vectors import norms, rotation_part, translation_part
+from ....groups.vectors import rotation_part, translation_part
 from ....model.chain import Chain
 from ....model.sampling import half_range
 from ..model.parameters import Parameter, Unit
@@ -25,6 +25,7 @@ _LAST = 3  # axes that make a wrist
 _MEET = 1e-9  # axes that are nearer to parallel leave the place along them open
 _LEAST = 1e-6  # reaches: a joint whose lever is never longer carries no weight
 _OF_SLIDES: dict[str, Unit] = {"rad/m": "m", "rad/(N m)": "m/N"}
+_WEIGHTS = {"rad/m": 1.0, "rad/(N m)": STANDARD_GRAVITY}
 
 
 class Load(NamedTuple):
@@ -63,7 +64,7 @@ def _terms(chain: Chain, owners: Owners, reference: Reference, load: Load) -> li
     loaded = owners[longest[owners] > _LEAST * chain.reach * carried]
 
     def columns(x: Scalars) -> list[Any]:
-        weight: Any = 1.0 if load.unit == "rad/m" else STANDARD_GRAVITY
+        weight: Any = _WEIGHTS[load.unit]
         if load.of_payload:
             weight = weight * x.payload
         every = torques(chain, x, load.masses)
@@ -89,7 +90,7 @@ def torques(chain: Chain, x: Scalars, masses: Array) -> list[Any]:
     sines = [sine for sine, _ in turns]
     cosines = [cosine for _, cosine in turns]
     count = len(joints)
-    forces: list[list[Any]] = [[0.0] * 3 for _ in range(count)]
+    forces: list[list[Any]] = [[None, None, None] for _ in range(count)]
     rows = masses.tolist()
     screws = chain.screws.tolist()
     gravity.torques(screws, rows, joints, sines, cosines, x.gravity, count, forces)
@@ -151,7 +152,6 @@ def wrist(chain: Chain) -> Array:
     several are, the one nearest to the tip.
     """
     tip = translation_part(chain.home)
-    turns = norms(chain.screws[:, :3])
-    turning = turns > 0.5
+    turning = chain.screws[:, :3].any(axis=1)
     axes = chain.screws[turning][-_LAST:]
     return nearest_point(axes, tip, _MEET)

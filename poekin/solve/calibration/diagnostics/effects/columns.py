@@ -112,8 +112,8 @@ def _strains(
     places = places - places.mean(axis=0)
     found = np.zeros((len(T), 6, 6))
     for k, (i, j) in enumerate(_PAIRS):
-        found[:, 3 + i, k] += places[:, j]
-        found[:, 3 + j, k] += places[:, i]
+        found[:, 3 + i, k] = places[:, j]
+        found[:, 3 + j, k] = places[:, i]
     return found
 
 
