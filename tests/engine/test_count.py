@@ -160,6 +160,22 @@ def test_zero_minus_a_number_and_zero_plus_it_are_free():
     assert total == Count()
 
 
+@pytest.mark.parametrize("whole", [-2, -1, 0, 1, 2])
+def test_of_whole_numbers_only_0_1_and_minus_1_are_free_as_factors_and_0_as_a_summand(whole):
+    for operation, free, charged in (
+        (operator.mul, (-1, 0, 1), "multiplications"),
+        (operator.add, (0,), "additions"),
+        (operator.sub, (0,), "additions"),
+    ):
+        for swapped in (False, True):
+            total = Count()
+            pair = (Counted(2.5, total), whole)
+            a, b = pair[::-1] if swapped else pair
+            x, y = map(float, (a, b))
+            assert float(operation(a, b)) == operation(x, y)
+            assert total == Count(**({} if whole in free else {charged: 1}))
+
+
 def test_counting_numbers_in_lists_and_tuples_are_of_one_count():
     total = Count()
     found = counted([(1.0, 2.0), [3.0]], total)

@@ -270,7 +270,7 @@ class _Trace:
         """J from what the walks have written: velocity of the point p; parts are (begin, end,
         seen).
         """
-        J = _zeros(6, self.n)
+        J = _zeros(_ROWS, self.n)
         rotates = self.arm.rotates
         slides = self.arm.slides
         for i in range(self.n):
@@ -281,7 +281,7 @@ class _Trace:
                 seen_by = (self.rows, self.points, rotates, slides)
                 structured.columns_of_axes(*seen_by, begin, end, J)
         m = self.arm.coordinates
-        J_q = _zeros(6, m)
+        J_q = _zeros(_ROWS, m)
         columns.coupled(J, self.arm.coupling, self.n, m, J_q)
         return J_q
 
@@ -314,8 +314,8 @@ class _Trace:
 
     def _walk(self, joints: dict[int, range]) -> JointWalk:
         """Arguments of a walk, its sines and cosines of the sums of the angles of `joints`."""
-        sines: list[Any] = [0.0] * self.n
-        cosines: list[Any] = [1.0] * self.n
+        sines: list[Any] = [None] * self.n
+        cosines: list[Any] = [None] * self.n
         for i, summed in joints.items():
             sine, cosine = self._sine_cosine(summed)
             sines[i] = sine

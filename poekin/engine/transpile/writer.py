@@ -181,7 +181,6 @@ class Writer:
         inner = ", ".join(texts)
         braces = f"{{{{{inner}}}}}" if kind.uniform else f"{{{inner}}}"
         constant = UNKNOWN
-        constant = UNKNOWN
         fixed = False
         if all(item.known for item in items):
             constant = tuple(item.constant for item in items)

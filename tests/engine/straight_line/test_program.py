@@ -153,6 +153,10 @@ def test_an_angle_is_made_from_another_only_where_that_saves_something():
     assert chosen(([0.5, 0, 0], 0.0), ([0.5, 1.0, 0], 0.0))[1] == Angle(
         0, ((1, 1.0),), 0.0
     )  # a product less
+    # what another has besides is taken away again: q_0 / 2 + q_2 - q_2 + q_1 is as dear
+    assert chosen(([0.5, 0, 1.0], 0.0), ([0.5, 1.0, 0], 0.0))[1] == Angle(
+        None, ((0, 0.5), (1, 1.0)), 0.0
+    )
     # twice the first coordinate tells nothing of the sum of both: 2 q_0 - q_0 + q_1 is dearer
     assert chosen(([2.0, 0, 0], 0.0), ([1.0, 1.0, 0], 0.0))[1] == Angle(
         None, ((0, 1.0), (1, 1.0)), 0.0

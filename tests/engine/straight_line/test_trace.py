@@ -1,10 +1,11 @@
 """What the recording scalar folds, merges and leaves out, and what it does not."""
 
+import math
 from typing import Any
 
 import pytest
 
-from poekin.engine.straight_line.program import HALF_PI, Angles, program
+from poekin.engine.straight_line.program import Angles, program
 from poekin.engine.straight_line.trace import FOLD_TOLERANCE, Graph, Traced
 
 EPS = 1e-16
@@ -150,10 +151,27 @@ def test_a_sum_of_scaled_angles_is_made_from_another_one_where_that_saves_multip
 @pytest.mark.parametrize("quarters", [-3, 1, 2, 8])
 def test_an_offset_that_is_a_right_angle_is_a_quarter_turn(quarters):
     angles: Any = Angles(Graph())
-    turned = angles.sine_cosine([1.0], quarters * HALF_PI, 0)
+    turned = angles.sine_cosine([1.0], quarters * math.pi / 2, 0)
     exact = angles.sine_cosine([1.0], 0.0, quarters)
     assert [(x.number, x.sign) for x in turned] == [(x.number, x.sign) for x in exact]
-    assert angles.sine_cosine([0.0], HALF_PI, 0) == (1.0, 0.0)
+    assert angles.sine_cosine([0.0], math.pi / 2, 0) == (1.0, 0.0)
+
+
+@pytest.mark.parametrize("quarters", [-1, 0, 1])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_an_offset_is_a_right_angle_up_to_its_rounding_and_no_further(quarters, side):
+    def turned(offset):
+        found: Any = Angles(Graph()).sine_cosine([1.0], offset, 0)
+        return [(x.number, x.sign) for x in found]
+
+    def operations(offset):
+        angles = Angles(Graph())
+        return program(angles.graph, angles, angles.sine_cosine([1.0], offset, 0)).count.additions
+
+    right = quarters * math.pi / 2
+    assert turned(right + side * FOLD_TOLERANCE) == turned(right)
+    assert operations(right + side * FOLD_TOLERANCE) == 0
+    assert operations(right + 2 * side * FOLD_TOLERANCE) == 1
 
 
 def test_an_offset_that_is_no_right_angle_costs_an_addition():

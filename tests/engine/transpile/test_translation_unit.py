@@ -151,6 +151,19 @@ def test_max_and_min_of_nan_are_those_of_compiled_python(tmp_path):
         np.testing.assert_array_equal(run(unit, ends, list(a)), out)
 
 
+def by_zero(a, out):
+    out[0] = 1.0 / 0.0
+    out[1] = -1.0 / 0
+    out[2] = 0.0 / 0.0
+    out[3] = 2.5 - 0
+    out[4] = 2.5 + 0.0
+
+
+def test_a_quotient_by_a_zero_that_is_known_is_c_s(tmp_path):
+    found = run(library(tmp_path, text_of(by_zero)), by_zero, [0.0] * 6)
+    np.testing.assert_array_equal(found[:5], [math.inf, -math.inf, math.nan, 2.5, 2.5])
+
+
 AXIS = np.array([[6.2e-17, 0.0, 1.0 - 2.0**-53], [3.0e-16, 0.5, 1.0 + 2.0**-51]])
 
 

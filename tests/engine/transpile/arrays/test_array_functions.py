@@ -108,6 +108,50 @@ def test_an_if_that_asks_of_no_array_stays_one(n):
     assert b.tolist() == x.tolist()
 
 
+def in_ways(sizes, x, y):
+    """Ways in ways,
+    each by itself.
+    """
+    a = x
+    if x > y:
+        a = 2.0 * y
+    if y < a < 1.0:
+        if sizes[0] == 0:
+            return a
+        if a < 0.0:
+            return x
+    return -y
+
+
+IN_WAYS = """
+def test_array_functions_in_ways(sizes, x, y):
+    \"""Ways in ways, each by itself.\"""
+    a = x
+    test_1 = x > y
+    a_1 = 2.0 * y
+    a = select(test_1, a_1, a)
+    def way_1():
+        if sizes[0] == 0:
+            return a
+        def way_2():
+            return x
+        def way_3():
+            return -y
+        return select(a < 0.0, way_2(), way_3())
+    def way_4():
+        return -y
+    return select((y < a) & (a < 1.0), way_1(), way_4())
+"""
+
+
+def test_text_is_laid_out_as_by_hand():
+    functions = ArrayFunctions({})
+    functions.add(in_ways, ["sizes"])
+    choice, found = functions.text.split("\n\n\n")
+    assert choice.startswith("def select(test, a, b):\n")
+    assert found == IN_WAYS.lstrip()
+
+
 def test_what_is_written_elsewhere_is_called_by_its_name():
     functions = ArrayFunctions({elsewhere: "xp.elsewhere"})
     functions.add(called)
