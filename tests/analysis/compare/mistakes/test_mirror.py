@@ -9,7 +9,7 @@ from benchmarks.planted_changes import ARMS, arm, planted
 from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare.alignment.search import search
 from poekin.analysis.compare.compare import compare
-from poekin.analysis.compare.mistakes.mirror import AXES, mirror_of, mirrored
+from poekin.analysis.compare.mistakes.mirror import AXES, Axis, mirror_of, mirrored
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
@@ -114,11 +114,12 @@ def test_what_two_changes_of_convention_explain_as_well_is_a_mirror_and_one_chan
     three = planes([z, y, y, x, y], places, [0.3, 0.4, 0.2, 0.5, 0.1])
     two = planes([z, y, y, x, y], places, [0.3, 0.4, 0.2, 0, 0.1])  # the fourth joint has its zero
     one = planes([y, y, x, y], places[1:], [0, 0.3, 0, 0.2])  # the third joint turns the other way
-    for chain, axis, mistake, changes in (
+    cases: list[tuple[Chain, Axis, str, int]] = [
         (three, "x", "mirrored", 3),
         (two, "x", "mirrored", 2),
         (one, "y", "", 1),
-    ):
+    ]
+    for chain, axis, mistake, changes in cases:
         other = mirrored(chain, axis)
         reading = search(chain, other, TOL)[0]
         assert (reading.moved.any(), reading.changes.sum()) == (False, changes)
