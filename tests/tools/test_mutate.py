@@ -684,6 +684,21 @@ def test_without_cosmic_ray_the_extra_that_has_it_is_named(monkeypatch):
         runpy.run_path(str(ROOT / "tools" / "mutate" / "__main__.py"))
 
 
+def test_of_a_room_its_mutants_alone_are_counted_and_its_entries_alone_are_stale(
+    tmp_path, monkeypatch, capsys
+):
+    _project(tmp_path, monkeypatch)
+    paths = ("poekin/solve/a.py", "poekin/cli/c.py")
+    entries = [equivalent.Entry(path, "double", "return x", "return y", "-") for path in paths]
+    monkeypatch.setattr(equivalent, "entries", lambda: entries)
+    assert command.main(["--count", "--room", "solve"]) == 1
+    said = capsys.readouterr().out
+    assert "no mutant: poekin/solve/a.py: double: return x -> return y" in said
+    assert not any(other in said for other in ("cli", "formulas"))
+    count = 2 * len(mutants_of("poekin/solve/a.py", CALCULATOR))
+    assert f"listed as equivalent: 0 of {count}, 0.00 %" in said
+
+
 def test_a_room_that_is_none_is_refused_with_those_that_are(capsys):
     with pytest.raises(SystemExit) as ended:
         command.main(["--room", "nowhere", "--count"])
