@@ -145,6 +145,8 @@ def test_names_survive_every_kind_of_terminal(tmp_path, monkeypatch, encoding):
     sys.stdout.flush()
     assert urdf.read_text(raw.getvalue()) == load(str(path))
     shown = raw.getvalue().decode(encoding)
+    # elsewhere by number
+    assert ("腕" in shown) == (encoding == "utf-8")
     assert not set("\u202e\x9b") & set(shown)
     assert urdf.read_text(shown.encode()) == load(str(path))
 
