@@ -1,7 +1,8 @@
 """Functions of scalars as functions of arrays, for NumPy and JAX.
 
 Of a branch both ways are computed for all elements, and one of them is taken for each. What is refused has
-no counterpart: loops, rows that are written, a name that is given another value in one way that returns.
+no counterpart: loops, rows that are written, a name that is given another value in one way that returns, an
+`if` of no array in a way of one of arrays, whose names would have no value where it does not hold.
 """
 
 from __future__ import annotations
@@ -84,6 +85,8 @@ class _Writer:
                     self._put(depth, f"return {self._expression(value, names)}")
                     return
                 case ast.If(test) if self._is_fixed(test):
+                    if renamed:
+                        self.source.refuse(node, "an `if` of no array inside one of arrays")
                     self._put(depth, f"if {ast.unparse(test)}:")
                     self._body(node.body, names, depth + 1, renamed)
                     if node.orelse:

@@ -190,6 +190,15 @@ def other_way(sizes, y):
     return x
 
 
+def a_fixed_way(sizes, x, y):
+    a = x
+    if x > y:
+        a = y
+        if sizes[0] > 0:
+            a = 2.0 * y
+    return a
+
+
 def another_function(x, y):
     return math.hypot(x, y)
 
@@ -204,6 +213,7 @@ REFUSED = {
     one_way: "late, which one way alone gives a value,",
     again: "a way that returns and gives a name another value",
     other_way: "`else` where an `if` asks of no array",
+    a_fixed_way: "an `if` of no array inside one of arrays",
     another_function: "a call of math.hypot",
     a_text: "the value __name__ of type str",
 }
