@@ -90,6 +90,12 @@ def test_a_turn_brings_an_axis_onto_its_target_whether_it_slants_or_is_parallel_
     assert turns(S, screw.prismatic(S[:3]), screw.prismatic(S[:3]))[0] == 0
 
 
+def test_an_angle_about_a_direction_comes_with_the_lesser_length_across_it():
+    w, u, v = np.array([0.0, 0, 1]), np.array([1.0, 0, 5]), np.array([0.0, 2, 7])
+    assert np.ravel(alignment_seeds._angle(w, u, v)) == pytest.approx([np.pi / 2, 1])
+    assert np.ravel(alignment_seeds._angle(w, v, u)) == pytest.approx([-np.pi / 2, 1])
+
+
 @pytest.mark.parametrize("ways", [(1, -1), (1, -1, 1), (1, -1, -1)], ids=str)
 @pytest.mark.parametrize(
     "xi", [(np.pi, 0, 0, 0.3, 0.1, 0.2), (0, np.pi, 0, 0, 0, 0), (0.3, 1.0, -0.4, 2, 0, 1)], ids=str
