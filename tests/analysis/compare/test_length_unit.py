@@ -137,6 +137,19 @@ def test_the_unit_is_named_either_way_round_and_by_however_many_samples_beside_a
             assert compare(*pair, samples=samples).mistake == "millimetres"
 
 
+@pytest.mark.parametrize(("wrong", "ratio"), [((2, 4), 1000), ((1, 2, 4), 1)])
+def test_the_unit_is_named_where_no_more_than_a_third_of_the_axes_are_elsewhere(wrong, ratio):
+    chain = random_arm(3, ("revolute",) * 6)
+    rng = np.random.default_rng(1)
+    screws = chain.screws.copy()
+    for k in wrong:
+        screws[k] = se3.adjoint(se3.exp(0.5 * rng.normal(size=6))) @ screws[k]
+    result = compare(chain, rescaled(chain.replace(screws=screws), 1000.0), samples=5)
+    assert result.length_ratio == ratio
+    if ratio == 1000:
+        assert [joint.number - 1 for joint in result.differing] == list(wrong)
+
+
 def elbow(length):
     """Three axes of which the first two intersect: in one unit or the other one of them differs."""
     places = ([0, 0, 1], [0, 0, 0]), ([0, 1, 0], [0, 0, 0]), ([0, 1, 0], [length, 0, 0])

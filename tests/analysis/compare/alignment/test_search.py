@@ -16,6 +16,7 @@ from poekin.analysis.compare.alignment.alignments import Alignments
 from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.alignment.search import (
+    _fitting,
     _inner,
     _links,
     _others,
@@ -129,6 +130,19 @@ def test_axes_on_both_sides_of_a_link_agree_within_the_tolerance(axis, tolerance
     assert len(_links(off, at)) == links
     S[axis] *= -1.0  # an axis that points the other way is no link's
     assert _links(sides(chain, other.replace(screws=S), TOL), at) == []
+
+
+@pytest.mark.parametrize(("tolerances", "agree"), [(1.0, True), (2.0, False)])
+def test_a_reading_is_of_a_start_whose_used_axes_agree_within_tolerance(tolerances, agree):
+    chain = random_arm(7, ("revolute",) * 5)
+    S = chain.screws.copy()
+    way = np.cross(S[2, :3], [0.6, 0.0, 0.8])
+    step = tolerances * TOL.position * way / np.linalg.norm(way)
+    S[2] = se3.adjoint(se3.exp([0, 0, 0, *step])) @ S[2]
+    pair = sides(chain, Chain.from_space(S, chain.home), TOL)
+    # Fitted, the moved axis misses by 0.7 of its shift, the others by less.
+    assert bool(_fitting(pair, pair.as_they_stand, np.ones(5, bool))) == agree
+    assert _fitting(pair, pair.as_they_stand, np.arange(5) != 2)
 
 
 def test_a_link_with_one_axis_behind_it_is_an_axis_that_moved():
