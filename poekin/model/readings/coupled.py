@@ -75,10 +75,10 @@ def own_speeds(chain: ChainData) -> Array:
 def _said_by_joints(chain: ChainData, limits: Array, speeds: Array) -> dict[str, Array]:
     """Limits (n, 2) and speeds (n,) of joints, but for those that the coordinates' imply."""
     implied = _implied_limits(chain)
-    within = (limits[:, 0] <= implied[:, 0]) & (implied[:, 1] <= limits[:, 1])
+    same = (limits == implied).all(axis=1)
     slow = _speeds(chain.coupling, chain.velocity_limits) <= speeds
     return {
-        "joint_limits": np.where(within[:, None], UNLIMITED, limits),
+        "joint_limits": np.where(same[:, None], UNLIMITED, limits),
         "joint_velocity_limits": np.where(slow, np.inf, speeds),
     }
 

@@ -14,7 +14,7 @@ from poekin.groups.arrays import ROUNDOFF
 from poekin.model import screw
 from poekin.model.chain import Chain
 from poekin.model.geometry.axis_walk import Walk
-from poekin.model.geometry.idealise import _bounds, _nearest, _settled, _way
+from poekin.model.geometry.idealise import Idealised, _bounds, _nearest, _settled, _way
 from poekin.model.geometry.normals import digits, exact, frame_on_line
 
 OFF, TOL = 1e-6, 1e-5
@@ -191,5 +191,6 @@ def test_a_result_says_its_bounds_in_mm_and_degrees_and_keeps_si_in_numbers():
         "rotation_bound": result.rotation_bound,
         "changes": list(result.changes),
     }
+    assert Idealised(result.chain, 1e-6, np.pi / 180, ()).summary().endswith("0.001 mm and 1°")
     exact = Chain.from_space([screw.revolute(Z, [0, 0, 0])], np.eye(4)).idealised(0.01)
     assert exact.summary() == "nothing was changed but rounding: within 0 mm and 0°"

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import PoekinWarning
 from poekin.model.kinematics import degrees
+from poekin.model.sampling import radians_per_unit
 
 TURN, SLIDE = [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]
 LIMITS = [[-1.0, 2.0], [-1.0, 1.0], [-np.inf, np.inf]]
@@ -99,3 +100,8 @@ def test_a_coordinate_without_limits_may_be_two_turns_in_any_unit(unit):
     two_turns = 4 * np.pi / unit
     assert warned(lambda: arm.fk([(1 - 1e-9) * two_turns])) == []
     assert len(warned(lambda: arm.fk([(1 + 1e-9) * two_turns]))) == 1
+
+
+def test_of_a_coordinate_radians_are_those_of_the_joint_that_it_moves_most_and_of_a_slide_none():
+    geared = ARM.replace(coupling=np.diag([1.0, 1.0, 3.0]))
+    np.testing.assert_allclose(radians_per_unit(geared), [1.0, 0.0, 3.0], rtol=1e-15)

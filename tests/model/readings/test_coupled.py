@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError
 from poekin.model.readings.coupled import (
+    joint_values,
     own_limits,
     own_readings,
     own_speeds,
@@ -106,6 +107,24 @@ def test_limits_of_joints_are_kept_to_the_last_digit(seed):
         moved = chain.rezeroed(np.ones(6))
         x = chain.coupling @ np.ones(6)
         np.testing.assert_allclose(own_limits(moved), own_limits(arm) - x[:, None], atol=1e-15)
+
+
+@pytest.mark.parametrize("limits", [(-np.inf, 1.0), (-1.0, np.inf), (-1.0, 1.0)])
+def test_joints_say_those_of_their_limits_that_their_coordinates_do_not_leave(limits):
+    arm = ARM.replace(limits=[*ARM.limits[:2], limits, *ARM.limits[3:]])
+    chain = arm.coupled("J3 = J2 + J3")
+    # joint 3 alone is moved by two readings, and by more than its own range
+    assert chain.joint_limits[2].tolist() == list(limits)
+    assert np.isinf(np.delete(chain.joint_limits, 2, axis=0)).all()
+    np.testing.assert_array_equal(own_limits(chain), own_limits(arm))
+
+
+def test_joint_values_are_the_coordinates_through_the_coupling_and_the_offset():
+    chain = ARM.replace(offset=np.arange(6.0)).coupled("J3 = J2 + J3")
+    q = np.array([[1.0, 2, 3, 4, 5, 6], [0, 0, 0, 0, 0, 0]])
+    expected = q @ chain.coupling.T + [0, 1, 2, 3, 4, 5]
+    np.testing.assert_array_equal(joint_values(chain, q), expected)
+    assert chain.coupling[2].tolist() == [0, 1, 1, 0, 0, 0]
 
 
 def test_limits_of_readings_alone_leave_each_joint_what_their_sum_does():

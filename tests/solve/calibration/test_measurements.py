@@ -300,9 +300,9 @@ BAD: dict[str, tuple] = {
         "rows: expected 12 whole numbers, the row of q of each measurement, got int64 of shape (1,)",
     ),
     "a row beyond q": (
-        lambda: parse_measurements(Poses(T, rows=np.arange(12) + 1), 12),
+        lambda: parse_measurements(Poses(T, rows=np.arange(12) + 2), 12),
         InputError,
-        "measurements: rows names row 12 of q, which has 12",
+        "measurements: rows names row 13 of q, which has 12",
     ),
     "another number of rows": (
         lambda: parse_measurements(T[:5], 12),

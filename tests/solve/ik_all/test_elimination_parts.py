@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from poekin.solve.ik_all.elimination import EliminatedRows, _join
+from poekin.model import screw
+from poekin.model.chain import Chain
+from poekin.solve.ik_all.elimination import EliminatedRows, _join, _table
 
 
 def rows(*solutions: tuple[float, float]) -> EliminatedRows:
@@ -25,3 +28,14 @@ def test_what_another_table_finds_is_added_where_there_is_room():
     full = rows((0.5, 0.3), (1.0, 0.1), (2.0, 0.0))
     _join(full, np.array([0]), rows((1.5, 0.2)), np.ones(1, bool))
     assert full.branches[0, :, 0].tolist() == [0.5, 1.0, 2.0]
+
+
+@pytest.mark.parametrize(("scale", "size"), [(0.0, 1.0), (1.0, 3.0), (0.5, 1.5)])
+def test_the_size_of_a_table_is_the_widest_range_of_its_points_and_1_where_they_are_one(
+    scale, size
+):
+    ways = np.eye(3)[[2, 1, 2, 0, 2, 1]]
+    places = scale * np.diag([0.2, 3.0, 0.5])[[0, 1, 2, 0, 1, 2]]
+    screws = [screw.revolute(way, place) for way, place in zip(ways, places, strict=True)]
+    form = Chain.from_space(screws, np.eye(4)).to_hp()
+    assert _table(form, 1, 2)[8, :3].tolist() == [size, 1, 2]

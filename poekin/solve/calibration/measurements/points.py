@@ -125,7 +125,7 @@ class Points(Measurement):
         else:
             points = parse_points(points)
             count = len(points)
-        if p.ndim != 3 or p.shape[1:] != (count, 3):
+        if p.shape[1:] != (count, 3):
             raise ShapeError(
                 f"p: expected positions (N, {count}, 3), of {count} points, got shape "
                 f"{np.shape(self.p)}"

@@ -10,7 +10,11 @@ import pytest
 
 import poekin as pk
 from poekin.groups import se3
-from poekin.solve.calibration.diagnostics.base_and_tool import base_and_tool, pose_points
+from poekin.solve.calibration.diagnostics.base_and_tool import (
+    _fixed,
+    base_and_tool,
+    pose_points,
+)
 from poekin.solve.calibration.report import pendant
 
 ARM = pk.load("ur5").chain()
@@ -153,3 +157,15 @@ def test_a_terminal_shows_all_forms_and_what_is_held(of_one_point, of_board):
     lines = str(of_board).split("\n")
     assert held in lines
     assert "T_base_board, to be typed in (± 95 %):" in lines
+
+
+def test_directions_without_variance_are_told_in_rad_and_reaches():
+    known = np.array([0.6, 0.8])  # of 0.6 rad and 0.8 reaches of 2 m
+    scale = np.array([1.0, 2.0])
+    estimate: Any = SimpleNamespace(
+        model=SimpleNamespace(nominal=SimpleNamespace(reach=2.0)),
+        parameters=[SimpleNamespace(unit="rad"), SimpleNamespace(unit="m")],
+        covariance=np.outer(scale * known, scale * known),
+    )
+    (direction,) = _fixed(estimate).T
+    np.testing.assert_allclose(direction * np.sign(direction[0]), [0.8, -0.6], atol=1e-15)
