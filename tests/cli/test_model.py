@@ -5,8 +5,11 @@ so.
 from __future__ import annotations
 
 import importlib.util
+import inspect
 
 import pytest
+
+from poekin.cli.model import takes_models
 
 needs_xacro = pytest.mark.skipif(
     importlib.util.find_spec("xacrodoc") is None, reason="xacrodoc is not installed"
@@ -24,6 +27,16 @@ XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:ar
 
 MJCF = """<mujoco model="m"><worldbody><body name="a" pos="1 0 0"><geom size="1"/>
 <joint name="j" axis="0 0 1" pos="0.5 0 0" ref="30"/></body></worldbody></mujoco>"""
+
+
+def test_a_command_that_takes_models_keeps_its_name_and_its_text():
+    def command(model: str) -> None:
+        """What it does."""
+
+    made = takes_models(command)
+    assert (made.__name__, made.__doc__) == ("command", "What it does.")
+    assert {"model", "xacro", "arm"} <= inspect.signature(made).parameters.keys()
+
 
 COMMANDS = {
     "info": ([], []), "fk": ([], ["0.5"]), "jacobian": ([], ["--frame", "body", "0.5"]), "urdf": ([], []),

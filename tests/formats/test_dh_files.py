@@ -139,6 +139,10 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
             "t.csv:2: pose: expected a list of 12 numbers, got 13 of them",
         ),
         (
+            'convention,theta,d,a,alpha\nstandard,1,2,3,"0,5"\n',
+            "t.csv:2: alpha: expected a number, got '0,5'",
+        ),
+        (
             "convention,theta,d,a,alpha,flip\nstandard,1,2,3,1,no\n",
             "t.csv:2: flip: expected true or false, got 'no'",
         ),

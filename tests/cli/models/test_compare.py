@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import re
 from pathlib import Path
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 from poekin.analysis.compare.compare import compare
+from poekin.cli.models.compare import command
 from poekin.formats.load import load
 
 URDF = """<robot name="three"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
@@ -33,6 +35,17 @@ def test_the_same_model_is_equal(tmp_path, poekin):
     assert (code, err) == (0, "")
     assert out.endswith("The models are the same\n")
     assert "two[b]" in out
+
+
+def test_what_is_not_asked_for_is_compared_as_the_library_does():
+    asked = inspect.signature(command).parameters
+    defaults = inspect.signature(compare).parameters
+    same = {"strict", "samples", "seed"}
+    assert {name: asked[name].default for name in same} == {
+        name: defaults[name].default for name in same
+    }
+    assert asked["tol_mm"].default == 1e3 * defaults["tol_position"].default
+    assert asked["tol_deg"].default == np.degrees(defaults["tol_rotation"].default)
 
 
 def test_a_different_model_is_one_and_is_said_in_words_and_json(tmp_path, poekin):

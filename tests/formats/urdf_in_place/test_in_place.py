@@ -254,6 +254,17 @@ def test_numbers_with_characters_by_number_are_written_whole_and_rounding_is_non
     assert new == text.replace('xyz="0.2&#53;&#32;0 0"', 'xyz="0.25 0 1"')
 
 
+def test_numbers_apart_by_a_blank_that_is_none_of_ascii_s_are_written_whole():
+    text = ARM.replace('xyz="0.25 0 0"', 'xyz="0.25\u2003 0 0"')
+    robot = read(text)
+    origin = robot.joint("held").origin.copy()
+    origin[:3, 3] = 0.25, 0.0, 1.0
+    held = replace(robot.joint("held"), origin=origin)
+    joints = [held if joint.name == "held" else joint for joint in robot.joints]
+    new = urdf_in_place.edit(text, Robot(robot.name, robot.links, joints)).decode()
+    assert new == ARM.replace('xyz="0.25 0 0"', 'xyz="0.25 0 1"')
+
+
 @pytest.mark.parametrize("kind", ["prismatic", "planar"])
 def test_the_axis_of_any_joint_that_has_one_is_written(kind):
     text = ARM.replace('name="turn" type="revolute"', f'name="turn" type="{kind}"')

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import ctypes
+import re
 import shutil
 import subprocess
 from dataclasses import replace
@@ -153,6 +155,18 @@ def test_the_header_says_the_conditions_in_order_with_their_means():
     plain = CASES["coupled, upright"].emit("c").header
     assert "void arm_true_joints(const double *q, double *q_true);" in plain
     assert "conditions" not in plain
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_text_says_its_own_operations(name):
+    text = CASES[name].emit("python")
+    (words,) = re.findall(r"': (\d+) multiplications, (\d+) additions or subtractions, (\d+)", text)
+    nodes = list(ast.walk(ast.parse(text)))
+    written = [node.op for node in nodes if isinstance(node, ast.BinOp)]
+    products = sum(isinstance(op, ast.Mult) for op in written)
+    sums = sum(isinstance(op, ast.Add | ast.Sub) for op in written)
+    sines = sum(isinstance(node, ast.Call) and "sin(" in ast.unparse(node) for node in nodes)
+    assert tuple(map(int, words)) == (products, sums, sines)
 
 
 def test_a_term_of_the_user_s_own_and_no_term_at_all_cannot_be_written():
