@@ -188,6 +188,10 @@ REFUSED = {
         '<link name="$(find nopkg)"/>',
         r"xacro: there is no package 'nopkg' in the folders above",
     ),
+    "an unknown package of a long name": (
+        f'<link name="$(find {"p" * 81})"/>',
+        rf"there is no package '{'p' * 79}…' in the folders",
+    ),
     "an expression": (
         '<link name="${1/0}"/>',
         r"xacro: division by zero when evaluating expression '1/0'$",

@@ -127,11 +127,12 @@ def roots(scratch, zero, steepest, is_whole):
     )
     width = circle_roots.ROOM // many
     rows = lanes.rows(brackets)
-    for k in range(number, many * -(-number // many)):
+    groups = -(-number // many)
+    for k in range(number, many * groups):
         for i in range(circle_roots.FIELDS):
             brackets[circle_roots.ROOM * i + k] = brackets[circle_roots.ROOM * i]
     found = lanes.rows(scratch.found)
-    for group in range(-(-number // many)):
+    for group in range(groups):
         _polish(scratch, rows, group, width, steepest)
         C, S = circle_roots.half_of_root(rows, group, width)
         found[group] = C
