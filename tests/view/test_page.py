@@ -292,7 +292,7 @@ def test_a_line_is_a_tube_of_its_width_in_the_colour_and_opacity_of_what_it_stan
 
 @pytest.mark.parametrize(("length", "shown"), [(60, "x" * 60), (61, "x" * 59 + "…")])
 def test_sixty_characters_of_a_title_stand_in_the_line_of_a_page(made, length, shown):
-    assert repr(Page("x" * length, "y" * 2_340_000)) == f"<Page '{shown}', 2.3 MB>"
+    assert repr(Page("x" * length, "y" * 2_250_000)) == f"<Page '{shown}', 2.2 MB>"
     frame = Page("x" * (length + 140), "")._repr_html_()
     assert f'title="{shown[:1] * 140 + shown}"' in frame
 

@@ -30,8 +30,8 @@ FACTOR = "exaggeration"
 VISIBLE = 0.1
 """Share of a size that what is enlarged is drawn as at most."""
 
-STEPS = (100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0)
-"""Factors to choose from."""
+STEPS = (100.0, 50.0, 20.0, 10.0, 5.0, 2.0)
+"""Factors to choose from, beside 1."""
 
 
 class Exaggerated(NamedTuple):
