@@ -158,6 +158,13 @@ def test_arms_whose_solutions_are_not_known_one_by_one_are_refused(chain, words)
     assert says(caught.value, words)
 
 
+@pytest.mark.parametrize("joints", [1, 3, 5])
+def test_an_arm_of_fewer_than_six_joints_whose_solutions_are_known_is_taken(joints):
+    whole = pk.load("ur5e").chain()
+    arm = pk.Chain.from_space(whole.screws[:joints], whole.home)
+    assert Sweep(arm, PoseGrid.of(CELLS), CELLS).chain.dof == joints
+
+
 def test_a_number_of_solutions_is_asked_of_poses_alone():
     samples = pk.sweep.Random.of(two_links(), 5)
     with pytest.raises(InputError) as caught:

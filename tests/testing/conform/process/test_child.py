@@ -232,6 +232,20 @@ def test_no_process_is_left(module):
     assert child.close() == 0
 
 
+def test_an_interrupted_call_ends_the_process(module, monkeypatch):
+    one = Child(f"{module}:Sound", Limits())
+    own = one.subject.own
+
+    def interrupted(_replies):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(child.worker, "receive", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            own.so3_exp(np.zeros(3))
+    assert one._process is None
+
+
 @unix
 def test_what_does_not_survive_a_fork_is_run_here_and_said(monkeypatch):
     for name in POOLS:

@@ -18,6 +18,7 @@ from benchmarks.subjects import Poekin
 from poekin.errors import InputError
 from poekin.testing.conform import Subject, conform, loaded
 from poekin.testing.conform.laws.law import typed
+from poekin.testing.conform.subjects import named
 
 MODULE = """
 import numpy as np
@@ -141,6 +142,15 @@ def test_what_has_no_name_is_called_as_it_is_there():
         == "import numpy as np; print(np.asarray(Local().so3_exp(x)).tolist())"
     )
     assert "subject.so3_exp(x)" in Subject(Local()).call("so3_exp", w="x")
+
+
+def test_two_hundred_characters_of_a_module_s_file_are_said(monkeypatch):
+    there: Any = ModuleType("there")
+    there.__file__ = "/" + "x" * 199
+    monkeypatch.setitem(sys.modules, "there", there)
+    assert named._file("there") == f" ('{there.__file__}')"
+    there.__file__ += "x"
+    assert named._file("there") == f" ('{there.__file__[:199]}…')"
 
 
 def test_a_script_is_imported_by_the_name_of_its_file(monkeypatch):
