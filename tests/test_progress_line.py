@@ -26,7 +26,7 @@ Cell.__module__ = "ipykernel.iostream"
 @pytest.fixture
 def clock(monkeypatch):
     """A clock that stands until it is set."""
-    now = [100.0]
+    now = [1.0]
     monkeypatch.setattr(progress_line.time, "monotonic", lambda: now[0])
     return now
 
@@ -39,7 +39,7 @@ def run(clock, monkeypatch):
         monkeypatch.setattr(sys, "stderr", stream)
         with pk.ProgressLine(what) as progress:
             for time, *words in calls:
-                clock[0] = 100.0 + time
+                clock[0] = 1.0 + time
                 progress(*words)
         return stream.getvalue()
 

@@ -46,6 +46,7 @@ def test_a_result_is_its_fields_and_what_it_derives_from_them():
     assert '{\n "value": 1.5,' in whole.to_json(indent=1)
     assert "\n" not in whole.to_json(indent=None)
     assert str(whole) == "value 1.5"
+    assert Result.__repr__(whole) == "<Whole: value 1.5>"
     assert whole._repr_html_() == "<pre>value 1.5</pre>"
 
 

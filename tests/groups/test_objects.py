@@ -175,6 +175,12 @@ def test_a_planar_pose_is_refused_and_does_not_pass_for_a_rotation():
         pk.so3.log(library("spatialmath").SE2(0, 0, 0.3))
 
 
+@pytest.mark.parametrize("name", ["A", "N"])
+def test_an_array_that_has_one_of_the_two_names_of_a_spatial_object_is_an_array(name):
+    named = np.eye(3).view(type("Named", (np.ndarray,), {name: np.zeros(3)}))
+    np.testing.assert_array_equal(pk.so3.log(named), np.zeros(3))
+
+
 def test_an_object_that_is_no_pose_is_refused_as_before():
     with pytest.raises(
         InputError, match=r"T: expected real numbers, got object \(SimpleNamespace\)"

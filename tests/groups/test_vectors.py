@@ -30,8 +30,11 @@ def test_normalised_vectors_are_divided_by_their_lengths():
 
 
 def test_a_vector_of_length_zero_stays_zero():
-    found = normalised_or_zero(np.array([[3.0, 4.0], [0.0, 0.0]]))
-    assert (found == np.array([[3.0, 4.0], [0.0, 0.0]]) / [[5.0], [1.0]]).all()
+    x = np.array([[3.0, 4.0], [0.0, 0.0]])
+    expected = x / [[5.0], [1.0]]
+    assert (normalised_or_zero(x) == expected).all()
+    assert (normalised_or_zero(x[0]) == expected[0]).all()
+    assert (normalised_or_zero(np.array([x, x])) == expected).all()
 
 
 def test_dots_keep_an_axis_of_length_one():
