@@ -500,15 +500,31 @@ def test_what_has_to_be_made_ready_for_the_first_mutant_takes_none_of_the_time(s
     assert run(small, lambda m: m.new == "return x * 3", seconds=10) == {"return x * 3": "caught"}
 
 
-def test_a_loop_without_an_end_is_ended(small, monkeypatch):
-    plugin = small.parent / "tools"
-    plugin.mkdir()
+@pytest.fixture
+def hasty(small):
+    """The project, with half a second for a test."""
     (small / "tools").unlink()
     (small / "tools" / "mutate").mkdir(parents=True)
     for file in (ROOT / "tools" / "mutate").glob("*.py"):
         text = file.read_text(encoding="utf-8").replace("SECONDS = 30.0", "SECONDS = 0.5")
         (small / "tools" / "mutate" / file.name).write_text(text, encoding="utf-8")
-    assert run(small, lambda m: m.new == "n -= 0") == {"n -= 0": "timeout"}
+    return small
+
+
+def test_a_loop_without_an_end_is_ended(hasty):
+    assert run(hasty, lambda m: m.new == "n -= 0") == {"n -= 0": "timeout"}
+
+
+def test_a_test_that_may_have_to_compile_kernels_has_more_time(hasty, monkeypatch):
+    slow = "import time\nstart = time.process_time()\nwhile time.process_time() < start + 1:\n    pass\n"
+    (hasty / "tests" / "test_calculator.py").write_text(
+        f"{TESTS}\ndef test_slow():\n{textwrap.indent(slow, '    ')}    assert double(4) == 8\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(BrokenSuite, match=r"::test_slow: timeout"):
+        run(hasty, lambda m: m.new == "while n != 0:")
+    monkeypatch.setattr(suites, "mode", lambda path: suites.Mode.COLD)
+    assert run(hasty, lambda m: m.new == "while n != 0:") == {"while n != 0:": "passed"}
 
 
 def test_a_suite_that_fails_by_itself_proves_nothing(small):

@@ -15,14 +15,15 @@ import pytest
 from hypothesis import Phase, settings
 
 SECONDS = 30.0  # of the processor, for one test: three times what the slowest needs
+COMPILING = 120.0  # where it may have to compile kernels: the largest one takes 26 s alone
 _BEYOND = 30  # then the signal that Python sees has not helped: the loop is inside a C function
 
 
 class Judge:
     """Calls `said` with "caught" or "timeout" and the test, once, and the process is to end there."""
 
-    def __init__(self, said: Callable[[str, str], None]):
-        self._said, self._running = said, "collection"
+    def __init__(self, said: Callable[[str, str], None], seconds: float):
+        self._said, self._seconds, self._running = said, seconds, "collection"
         signal.signal(signal.SIGPROF, lambda *_: said("timeout", self._running))
         self._limit()
 
@@ -30,9 +31,10 @@ class Judge:
         usage = resource.getrusage(resource.RUSAGE_SELF)
         hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
         resource.setrlimit(
-            resource.RLIMIT_CPU, (int(usage.ru_utime + usage.ru_stime + SECONDS) + _BEYOND, hard)
+            resource.RLIMIT_CPU,
+            (int(usage.ru_utime + usage.ru_stime + self._seconds) + _BEYOND, hard),
         )
-        signal.setitimer(signal.ITIMER_PROF, SECONDS)
+        signal.setitimer(signal.ITIMER_PROF, self._seconds)
 
     @pytest.hookimpl(trylast=True)
     def pytest_configure(self, config):

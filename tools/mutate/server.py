@@ -44,6 +44,7 @@ SETTINGS = {
     "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
 }
 KEY = "MUTANTS_SOURCE_KEY"
+COMPILES = "MUTANTS_COMPILE_KERNELS"
 PLUGINS = ("_hypothesis_pytestplugin", "pytest_timeout", *(f"no:{name}" for name in _NOT_NEEDED))
 # when the files of a copy were written; each mutant a second later than the one before it, so that no
 # bytecode can pass for that of another text
@@ -70,7 +71,11 @@ def main() -> None:
             }
             shared = _source_key(Path.cwd()) if mode is Mode.SHARED else ""
             answer = answered(
-                Path.cwd(), job["path"], job["source"], job["sessions"], {**compiling, KEY: shared}
+                Path.cwd(),
+                job["path"],
+                job["source"],
+                job["sessions"],
+                {**compiling, KEY: shared, COMPILES: str(int(mode in kernels.MAKING))},
             )
         print(json.dumps(answer), flush=True)
 
@@ -169,7 +174,7 @@ def _judge(tree: Path, arguments: list[str], writing: int) -> None:
 
     import pytest
 
-    from .plugin import Judge
+    from .plugin import COMPILING, SECONDS, Judge
 
     if os.environ.get(KEY):
         with contextlib.suppress(Exception):  # what cannot be imported, the tests will find
@@ -178,7 +183,8 @@ def _judge(tree: Path, arguments: list[str], writing: int) -> None:
             ]
     options = ["-q", "-W", "ignore::pytest.PytestAssertRewriteWarning"]
     options += [word for plugin in PLUGINS for word in ("-p", plugin)]
-    code = int(pytest.main([*options, *arguments], plugins=[Judge(send)]))
+    seconds = COMPILING if os.environ[COMPILES] == "1" else SECONDS
+    code = int(pytest.main([*options, *arguments], plugins=[Judge(send, seconds)]))
     if code in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
         send("passed", "")
     send("caught", f"pytest itself (exit code {code})")

@@ -131,10 +131,10 @@ def array_type(code: str):
 def compiled(
     function,
     arguments: str,
-    returns: str = "",
-    quick: bool = False,
-    bare: bool = False,
-    portable: bool = False,
+    returns: str,
+    quick: bool,
+    bare: bool,
+    portable: bool,
 ):
     """Machine code of `function` for one signature, from the cache or compiled now; see
     `engine.jit.kernel.Kernel`.
