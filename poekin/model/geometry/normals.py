@@ -133,9 +133,8 @@ def common_normal(p: Vector, z: Vector, p2: Vector, z2: Vector) -> Normal:
     sine = ss.sqrt()
     cosine = dot(z, z2)
     foot = add(p, scale(dot(cross(w, z2), c) / ss, z))
-    other = add(p2, scale(dot(cross(w, z), c) / ss, z2))
     x = scale(1 / sine, c)
-    a = dot(subtract(other, foot), x)
+    a = dot(w, x)
     if a < 0:
         return Normal(foot, scale(-1, x), -a, -sine, cosine)
     return Normal(foot, x, a, sine, cosine)

@@ -39,3 +39,15 @@ def test_lines_that_meet_have_their_normal_along_the_product_of_their_directions
     with digits():
         found = common_normal(exact([0, 0, 5]), Z, exact([0, 8, 1]), Y)
     assert found == (exact([0, 0, 1]), exact([-1, 0, 0]), 0, 1, 0)
+
+
+def test_slanted_lines_are_as_far_apart_as_along_the_product_of_their_directions():
+    # The second line passes the first, z through the origin, 2 m beside it at a height of 4 m.
+    slanted = exact([0, 0.6, 0.8])
+    with digits():
+        found = common_normal(ORIGIN, Z, exact([2, 3, 8]), slanted)
+    assert found.foot == pytest.approx((0, 0, 4), abs=Decimal("1e-15"))
+    assert found.x == pytest.approx((1, 0, 0), abs=Decimal("1e-40"))
+    assert found.a == pytest.approx(2, abs=Decimal("1e-40"))
+    assert float(found.sine) == -0.6
+    assert float(found.cosine) == 0.8

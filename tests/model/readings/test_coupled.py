@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError
 from poekin.model.readings.coupled import (
+    beyond_own_limits,
     joint_values,
     own_limits,
     own_readings,
@@ -125,6 +126,12 @@ def test_joint_values_are_the_coordinates_through_the_coupling_and_the_offset():
     expected = q @ chain.coupling.T + [0, 1, 2, 3, 4, 5]
     np.testing.assert_array_equal(joint_values(chain, q), expected)
     assert chain.coupling[2].tolist() == [0, 1, 1, 0, 0, 0]
+
+
+def test_a_joint_at_zero_may_pass_its_own_limit_by_rounding_and_no_more():
+    narrow = ARM.replace(joint_limits=np.zeros((6, 2)))
+    off = np.array([0.0, 5e-13, -5e-13, 2e-12, -2e-12, 0.0])
+    assert beyond_own_limits(narrow, off).tolist() == [False, False, False, True, True, False]
 
 
 def test_limits_of_readings_alone_leave_each_joint_what_their_sum_does():
