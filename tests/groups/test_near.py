@@ -5,8 +5,11 @@ is none.
 import numpy as np
 import pytest
 
+from benchmarks.accuracy.worst_errors import REPORT_BAR
 from poekin.errors import BranchError
 from poekin.groups import se3, so3
+from poekin.testing.accuracy import error_bounds
+from poekin.testing.oracles import exact
 
 AXIS = np.array([1.0, 2.0, 3.0]) / np.sqrt(14)
 
@@ -29,6 +32,24 @@ def test_close_to_a_whole_turn_exp_gives_the_pose_back(gap):
     xi = np.r_[AXIS * (2 * np.pi + gap), 2 * np.pi * np.array([0.3, -0.2, 0.5])]
     T = se3.exp(xi)
     np.testing.assert_allclose(se3.exp(se3.log(T, near=xi)), T, rtol=0, atol=4e-15)
+
+
+@pytest.mark.parametrize("gap", [2.0, 0.1, 1e-2, 1e-6])
+def test_beside_a_whole_turn_what_is_near_is_as_exact_as_the_report_allows(gap):
+    # At 2 rad omega was off by twice what is attainable, about an axis of the frame.
+    rng = np.random.default_rng(0)
+    along = np.eye(3)[rng.integers(3, size=60)] + 1e-7 * rng.normal(size=(60, 3))
+    for n, v in zip([*along, *rng.normal(size=(20, 3))], rng.normal(size=(80, 3)), strict=True):
+        angle = 2 * np.pi - gap * rng.uniform(0.9, 1.1)
+        xi = np.r_[n / np.linalg.norm(n) * angle, v]
+        T = se3.exp(xi)
+        w = exact.log(T)[:3]
+        w *= 1 - 2 * exact.mp.pi / exact.norm(w)  # a whole turn on, about the same line
+        truth = np.r_[w, exact.left_jacobian_inverse(w) @ exact.exactly(T[:3, 3])]
+        off = exact.exactly(se3.log(T, near=xi)) - truth
+        bound = error_bounds.log_bound(truth)
+        assert exact.norm(off[:3]) <= REPORT_BAR * bound.angular
+        assert exact.norm(off[3:]) <= REPORT_BAR * bound.linear
 
 
 def test_a_translation_across_a_whole_turn_has_no_logarithm():

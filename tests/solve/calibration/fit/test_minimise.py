@@ -68,6 +68,29 @@ def test_a_step_stays_straight_where_it_would_bend_by_more_than_three_eighths():
     assert bent(100.0, 0.0)[0].tolist() == [0.0, 0.0]
 
 
+def search(
+    errors: Any,
+    linearised: Any,
+    start: float,
+    angular: int = 0,
+    reach: float = 1.0,
+) -> minimising.Minimum:
+    """Search in one number for the least of two errors, the first `angular` of them angles."""
+    s = SimpleNamespace(width=2, angular=angular)
+    nominal = SimpleNamespace(nominal=SimpleNamespace(reach=reach))
+    problem: Any = SimpleNamespace(
+        scale=np.ones(1), sets=[s], model=nominal, errors=errors, linearised=linearised
+    )
+    noise: Any = SimpleNamespace(
+        stacked=lambda every: every[0].ravel(),
+        squares=lambda every: [np.sum(every[0] ** 2, axis=1)],
+        whitened=lambda k, J: J,
+        whitened_errors=lambda k, e: e,
+    )
+    options = minimising.FitOptions("linear")
+    return minimising.minimise(problem, np.eye(1), noise, np.array([start]), options)
+
+
 def slow_search(start: float, wall: tuple[float, float] = (0.0, 0.0)) -> minimising.Minimum:
     """Search of the errors x and 1 - 0.45 x^2, of which each step leaves 0.9 of x; between the walls
     no step may end.
@@ -82,19 +105,7 @@ def slow_search(start: float, wall: tuple[float, float] = (0.0, 0.0)) -> minimis
     def linearised(p: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
         return [(errors(p)[0], np.array([[[1.0], [-0.9 * p[0]]]]))]
 
-    s = SimpleNamespace(width=2, angular=0)
-    nominal = SimpleNamespace(nominal=SimpleNamespace(reach=1.0))
-    problem: Any = SimpleNamespace(
-        scale=np.ones(1), sets=[s], model=nominal, errors=errors, linearised=linearised
-    )
-    noise: Any = SimpleNamespace(
-        stacked=lambda every: every[0].ravel(),
-        squares=lambda every: [np.sum(every[0] ** 2, axis=1)],
-        whitened=lambda k, J: J,
-        whitened_errors=lambda k, e: e,
-    )
-    options = minimising.FitOptions("linear")
-    return minimising.minimise(problem, np.eye(1), noise, np.array([start]), options)
+    return search(errors, linearised, start)
 
 
 def test_a_slow_search_goes_to_its_end_where_no_step_was_damped():
@@ -115,3 +126,30 @@ def test_a_slow_search_that_was_damped_once_ends_where_steps_gain_nothing_beside
     assert 0.0 < found.steps[-1].damping < 1e-6
     # a step from x gains 0.1 (1 - 0.9^2) x^2, less than 1e-4 from 0.07 on
     assert 0.05 < abs(found.p[0]) < 0.08
+
+
+def stuck_search(error: tuple[float, float], reach: float) -> minimising.Minimum:
+    """Search of an angle's and a length's error, smallest where it begins, of an arm of that reach."""
+
+    def errors(p: np.ndarray) -> list[np.ndarray]:
+        return [np.array([error if p[0] == 0.0 else (1e3, 1e3)])]
+
+    def linearised(p: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+        # so flat that no step is so short that it is rounding itself
+        return [(errors(p)[0], np.array([[[1e-6], [0.5e-6]]]))]
+
+    return search(errors, linearised, 0.0, angular=1, reach=reach)
+
+
+@pytest.mark.parametrize("reach", [0.01, 1.0, 1000.0])
+@pytest.mark.parametrize(
+    ("angle", "length", "converged"), [(0.9, 0.9, True), (1.1, 0.0, False), (0.0, 1.1, False)]
+)
+def test_a_search_that_no_step_betters_has_converged_where_its_errors_are_rounding_of_rad_and_of_the_reach(
+    angle, length, converged, reach
+):
+    # 1e-13 in rad and reaches: some 900 roundings of 1.1e-16
+    found = stuck_search((angle * 1e-13, length * 1e-13 * reach), reach)
+    assert found.converged is converged
+    assert found.p.tolist() == [0.0]
+    assert not found.steps
