@@ -18,6 +18,7 @@ from numba.core import cgutils, config, types
 from numba.extending import intrinsic, overload, register_jitable
 
 from ... import algebra, formulas
+from ...errors import FileError
 from ...formulas import elementary
 from ...formulas.lie import arctangent, compensated, exponential, logarithm, quaternion
 from ..lanes import vector
@@ -137,7 +138,7 @@ def compiled(
     portable: bool,
 ):
     """Machine code of `function` for one signature, from the cache or compiled now; see
-    `engine.jit.kernel.Kernel`.
+    `engine.jit.kernel.Kernel`. Raises: FileError in a working directory that was deleted.
     """
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
@@ -148,7 +149,13 @@ def compiled(
     dispatcher._cache = KernelCache(function.__name__)  # type: ignore[attr-defined]
     result = types.int64 if returns == "int" else types.void
     signature = result(*(array_type(code) for code in arguments.split()))
-    dispatcher.compile(signature)
+    try:
+        dispatcher.compile(signature)
+    except FileNotFoundError as fault:  # Numba asks for the working directory, for its messages
+        raise FileError(
+            "compiling kernels: the working directory is gone; change to another one, or run "
+            "`poekin warm` once, after which nothing is compiled"
+        ) from fault
     dispatcher.disable_compile()
     # the entry point unpacks its arguments without asking of what type they are
     if bare:

@@ -2,6 +2,7 @@
 lock.
 """
 
+import os
 import threading
 import time
 
@@ -10,7 +11,7 @@ import pytest
 from numba.core import types
 
 import poekin as pk
-from poekin.engine.jit.compile import array_type, modules_used
+from poekin.engine.jit.compile import array_type, compiled, modules_used
 from poekin.engine.jit.kernel import Kernel
 from poekin.engine.kernels import (
     arm_kernels,
@@ -21,6 +22,7 @@ from poekin.engine.kernels import (
     ik_kernels,
     tree_kernels,
 )
+from poekin.errors import FileError
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 Q = np.random.default_rng(0).normal(size=(6, 7))
@@ -154,3 +156,19 @@ def test_a_kernel_may_be_the_first_one_that_is_compiled(module, others):
         *({module} - {ik_all_kernel}),
     }
     assert len(used) == len(set(used))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a directory in use stays")
+def test_in_a_directory_that_was_deleted_compiling_is_refused_with_what_helps(
+    tmp_path, monkeypatch
+):
+    monkeypatch.setenv("POEKIN_CACHE_DIR", "")
+    here = tmp_path / "here"
+    here.mkdir()
+    monkeypatch.chdir(here)
+    here.rmdir()
+    known = group_kernels.first_defect
+    with pytest.raises(FileError, match="working directory is gone; change to another one, or run"):
+        compiled(
+            known.function, known.arguments, known.returns, known.quick, known.bare, known.portable
+        )
