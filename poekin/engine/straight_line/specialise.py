@@ -281,6 +281,9 @@ class _Trace:
                 seen_by = (self.rows, self.points, rotates, slides)
                 structured.columns_of_axes(*seen_by, begin, end, J)
         m = self.arm.coordinates
+        own = [[(k, 1.0)] for k in range(m)]
+        if self.driven_by == own:  # else n m products with 0 and 1 are recorded, and fall away
+            return J
         J_q = _zeros(_ROWS, m)
         columns.coupled(J, self.arm.coupling, self.n, m, J_q)
         return J_q

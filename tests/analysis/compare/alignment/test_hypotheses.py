@@ -9,7 +9,9 @@ import pytest
 
 from benchmarks.planted_changes import planted, random_arm
 from poekin.analysis.axis_lines import Tolerances
-from poekin.analysis.compare.alignment.hypotheses import Hypothesis, as_they_stand
+from poekin.analysis.compare.alignment.hypotheses import Hypothesis, as_they_stand, turn_about
+from poekin.groups import se3
+from poekin.model import screw
 
 
 def reading(
@@ -155,3 +157,20 @@ def test_of_readings_that_cost_the_same_frames_that_stay_then_few_changes_then_n
         assert order(axes=2, miss=miss)[3] == pytest.approx(10 * 0.5 + 2 * near)
         assert order(axes=1, miss=miss)[3] == pytest.approx(11 * 0.5 + near)
         assert order(axes=3, link=2, miss=miss)[2:] == (3, pytest.approx(9 * 0.5 + 3 * near))
+
+
+@pytest.mark.parametrize(
+    "S",
+    [screw.revolute([1, 2, 2], [0.3, 0, 0.1]), screw.prismatic([2, 0.5, 1])],
+    ids=["turn", "slide"],
+)
+@pytest.mark.parametrize("z", [0.3, -1.2, np.pi, 0.0])
+def test_a_motion_of_one_joint_is_told_by_its_position_and_another_motion_by_none(S, z):
+    tol = Tolerances(1e-9, 1e-9)
+    T = se3.exp(S * z)
+    found = turn_about(T, S, tol)
+    assert found is not None
+    # half a turn is one either way
+    np.testing.assert_allclose(se3.exp(S * found), T, atol=1e-12)
+    assert abs(found) == pytest.approx(abs(z), abs=1e-12)
+    assert turn_about(T @ se3.exp([0, 0, 0, 0, 1e-8, 0]), S, tol) is None
