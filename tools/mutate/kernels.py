@@ -24,7 +24,7 @@ from pathlib import Path
 from .suites import Mode
 
 TAKING = (Mode.WARM, Mode.SHARED)
-MAKING = (Mode.COLD, Mode.SHARED)
+MAKING = (Mode.COLD, Mode.SHARED)  # a test may have to compile kernels
 _OF_AN_ARM = "arm-"
 _PROCESSES = 2  # each compiles on one processor
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import math
+import os
 import pkgutil
 import sys
 
@@ -151,16 +152,27 @@ def compiled(
     signature = result(*(array_type(code) for code in arguments.split()))
     try:
         dispatcher.compile(signature)
-    except FileNotFoundError as fault:  # Numba asks for the working directory, for its messages
+    except FileNotFoundError as fault:
+        if not _is_directory_gone():
+            raise
         raise FileError(
             "compiling kernels: the working directory is gone; change to another one, or run "
-            "`poekin warm` once, after which nothing is compiled"
+            "`poekin warm` elsewhere once, after which no kernel is compiled"
         ) from fault
     dispatcher.disable_compile()
     # the entry point unpacks its arguments without asking of what type they are
     if bare:
         return dispatcher.overloads[signature.args].entry_point
     return dispatcher
+
+
+def _is_directory_gone() -> bool:
+    """Whether the working directory, which Numba asks for as it compiles, was deleted."""
+    try:
+        os.getcwd()
+    except FileNotFoundError:
+        return True
+    return False
 
 
 _register()

@@ -44,8 +44,8 @@ def test_what_is_not_asked_for_is_compared_as_the_library_does():
     assert {name: asked[name].default for name in same} == {
         name: defaults[name].default for name in same
     }
-    assert asked["tol_mm"].default == 1e3 * defaults["tol_position"].default
-    assert asked["tol_deg"].default == np.degrees(defaults["tol_rotation"].default)
+    assert asked["tol_mm"].default == pytest.approx(1e3 * defaults["tol_position"].default)
+    assert asked["tol_deg"].default == pytest.approx(np.degrees(defaults["tol_rotation"].default))
 
 
 def test_a_different_model_is_one_and_is_said_in_words_and_json(tmp_path, poekin):

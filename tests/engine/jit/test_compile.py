@@ -11,6 +11,7 @@ import pytest
 from numba.core import types
 
 import poekin as pk
+from poekin.engine.jit import compile as compile_module
 from poekin.engine.jit.compile import array_type, compiled, modules_used
 from poekin.engine.jit.kernel import Kernel
 from poekin.engine.kernels import (
@@ -168,7 +169,25 @@ def test_in_a_directory_that_was_deleted_compiling_is_refused_with_what_helps(
     monkeypatch.chdir(here)
     here.rmdir()
     known = group_kernels.first_defect
-    with pytest.raises(FileError, match="working directory is gone; change to another one, or run"):
+    with pytest.raises(FileError) as caught:
+        compiled(
+            known.function, known.arguments, known.returns, known.quick, known.bare, known.portable
+        )
+    assert str(caught.value) == (
+        "compiling kernels: the working directory is gone; change to another one, or run "
+        "`poekin warm` elsewhere once, after which no kernel is compiled"
+    )
+
+
+def test_another_file_that_is_missing_as_kernels_are_compiled_is_said_as_it_is(monkeypatch):
+    monkeypatch.setenv("POEKIN_CACHE_DIR", "")
+
+    def missing(*_):
+        raise FileNotFoundError("a source")
+
+    monkeypatch.setattr(compile_module.KernelCache, "load_overload", missing)
+    known = group_kernels.first_defect
+    with pytest.raises(FileNotFoundError, match=r"^a source$"):
         compiled(
             known.function, known.arguments, known.returns, known.quick, known.bare, known.portable
         )
