@@ -8,18 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....groups.arrays import Array
-from ....groups.vectors import applied
 from ..model.configurations import configurations
 from ..model.problem import Problem
 from ..model.tsqr import least_squares, qr_r
 from .fitting import Fit
+from .jackknife import Jackknife
 from .losses import loss
 from .minimise import FitOptions, regular
 
 _OWN = 3
 """Numbers of a configuration that are taken for independent: those of one point."""
-_LEAST = 1e-6
-"""Part of an error below which a fit left nothing of it: only its configuration knows of it."""
 
 
 def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
@@ -28,7 +26,7 @@ def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
 
     Where a configuration carries more than three numbers, and their covariance is not given, their
     errors may depend on each other, as those of three reflectors on an arm that bends: (J^T J)^-1
-    M (J^T J)^-1 then, with `jackknife_meat`'s M. Source: Huber, Robust Statistics, 1981, section 7.6; Liang
+    M (J^T J)^-1 then, with the M of `Jackknife`. Source: Huber, Robust Statistics, 1981, section 7.6; Liang
     and Zeger 1986 (Biometrika 73) for clusters.
     """
     B = problem.scale[:, None] * fit.free
@@ -42,7 +40,7 @@ def covariance_of(problem: Problem, fit: Fit, options: FitOptions) -> Array:
     clusters = clusters_of(problem)
     if clusters is not None:
         scores = _scores(problem, fit, options)
-        M = jackknife_meat(A @ inverse, scores, clusters)
+        M = Jackknife(A @ inverse, clusters).meat(scores)
         half = half @ _root(M)
     covariance = half @ half.T  # a product with its own transpose is symmetric to the last bit
     if options.loss == "linear":
@@ -92,36 +90,6 @@ def _scores(problem: Problem, fit: Fit, options: FitOptions) -> Array:
         weighted = e * weight[:, None]
         found.append(weighted.ravel())
     return np.concatenate(found)
-
-
-def jackknife_meat(Q: Array, scores: Array, clusters: NDArray[np.intp]) -> Array:
-    """M = sum over clusters g of Q_g^T a_g a_g^T Q_g, with a_g = (I - Q_g Q_g^T)^-1 e_g: the errors
-    e_g (M,) as a fit without the cluster would leave them.
-
-    Q (M + k, P): orthonormal columns, behind the measured rows those of a prior, which count as
-    they are. Source: Bell and McCaffrey 2002 (Survey Methodology 28), the jackknife CR3.
-    """
-    of_prior = Q[len(clusters) :]
-    total = of_prior.T @ of_prior
-    order = np.argsort(clusters, kind="stable")
-    sizes = np.bincount(clusters)
-    begins = np.cumsum(sizes) - sizes
-    for size in np.unique(sizes[sizes > 0]).tolist():
-        firsts = begins[sizes == size]
-        places = firsts[:, None] + np.arange(size)
-        rows = order[places]
-        Q_g = Q[rows]
-        back = np.swapaxes(Q_g, 1, 2)
-        left = np.eye(size) - Q_g @ back
-        values, V = np.linalg.eigh(left)
-        to_own = np.swapaxes(V, 1, 2)
-        e = applied(to_own, scores[rows])
-        # of what only one configuration tells, the noise is what it is for the others
-        raised = e / np.maximum(values, _LEAST)
-        a = np.where(values > _LEAST, raised, 1.0)
-        u = applied(back, applied(V, a))
-        total += u.T @ u
-    return total
 
 
 def _root(M: Array) -> Array:

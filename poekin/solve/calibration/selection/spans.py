@@ -36,8 +36,9 @@ def directions_beside(Q: Array, columns: Array) -> Array:
     """Orthonormal directions (M, d) of columns (M, P) of any sizes beside orthonormal Q (M, k)."""
     known = columns[:, np.any(columns, axis=0)]
     rest = beside(Q, known / column_sizes(known))
-    U, s, _ = np.linalg.svd(rest, full_matrices=False)
-    return U[:, s > INDEPENDENT]
+    _, s, Vt = np.linalg.svd(qr_r(rest), full_matrices=False)
+    kept = s > INDEPENDENT
+    return blocked_product(rest, Vt[kept].T / s[kept])
 
 
 def beside(Q: Array, columns: Array) -> Array:

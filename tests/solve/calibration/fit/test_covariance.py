@@ -1,6 +1,4 @@
-"""The covariance of a fit: Huber's, a prior's, and the jackknife's where errors depend on each
-other.
-"""
+"""The covariance of a fit: Huber's, a prior's, and which errors depend on each other."""
 
 from __future__ import annotations
 
@@ -14,7 +12,7 @@ from poekin.groups import se3
 from poekin.solve.calibration import Points, Poses, calibrate
 from poekin.solve.calibration.diagnostics.identification import identify_directions
 from poekin.solve.calibration.fit import covariance, fitting, losses
-from poekin.solve.calibration.fit.covariance import clusters_of, covariance_of, jackknife_meat
+from poekin.solve.calibration.fit.covariance import clusters_of, covariance_of
 from poekin.solve.calibration.fit.losses import LossName
 from poekin.solve.calibration.fit.minimise import FitOptions
 from poekin.solve.calibration.model.configurations import configurations
@@ -71,45 +69,6 @@ def test_a_prior_counts_in_the_covariance_as_a_measurement_of_each_parameter():
     size = np.sqrt(np.diag(expected))
     even = covariance_of(problem, fit, options) / np.outer(size, size)
     np.testing.assert_allclose(even, expected / np.outer(size, size), atol=1e-6)
-
-
-@pytest.mark.parametrize("sizes", [[3] * 8, [1, 2, 3, 4, 5, 6, 6, 6], [4] * 4 + [0, 9]])
-def test_the_sandwich_is_the_jackknife_that_leaves_out_a_configuration_at_a_time(sizes):
-    """Of a linear problem its refits without a cluster differ by (J^T J)^-1 J_g^T (I - H_g)^-1 e_g."""
-    rng = np.random.default_rng(0)
-    clusters = rng.permutation(np.repeat(np.arange(len(sizes)), sizes))
-    J = rng.normal(size=(len(clusters), 4))
-    y = rng.normal(size=len(clusters))
-    whole = np.linalg.lstsq(J, y, rcond=None)[0]
-    expected = np.zeros((4, 4))
-    for g in range(len(sizes)):
-        rest = clusters != g
-        change = np.linalg.lstsq(J[rest], y[rest], rcond=None)[0] - whole
-        expected += np.outer(change, change)
-    Q, R = np.linalg.qr(J)
-    inverse = np.linalg.inv(R)
-    found = inverse @ jackknife_meat(Q, y - J @ whole, clusters) @ inverse.T
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
-
-
-def test_what_one_configuration_alone_tells_is_known_to_the_noise_of_the_others():
-    # the last column is seen by the last cluster alone, in one number
-    J = np.zeros((9, 2))
-    J[:, 0] = 1.0
-    J[8, 1] = 2.0
-    Q, R = np.linalg.qr(J)
-    inverse = np.linalg.inv(R)
-    e = np.array([1.0, -1.0] * 4 + [0.0])
-    found = inverse @ jackknife_meat(Q, e, np.repeat(np.arange(5), [2, 2, 2, 2, 1])) @ inverse.T
-    assert 0.2 < found[1, 1] < 0.6
-
-
-def test_a_prior_s_rows_count_as_they_are():
-    Q = np.linalg.qr(np.random.default_rng(0).normal(size=(12, 3)))[0]
-    e = np.zeros(9)
-    np.testing.assert_allclose(
-        jackknife_meat(Q, e, np.repeat(range(3), 3)), Q[9:].T @ Q[9:], atol=1e-15
-    )
 
 
 def sets_of(q: np.ndarray, *sets: Any) -> Any:

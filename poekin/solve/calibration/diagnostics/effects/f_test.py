@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .....groups.arrays import Array
-from ...fit.covariance import jackknife_meat
+from ...fit.jackknife import Jackknife
 from ...selection.spans import RANK, beside, column_sizes, directions_beside, spanned
 
 _CONVERGED = 1e-15
@@ -18,12 +18,12 @@ _TINY = 1e-300
 
 class Left(NamedTuple):
     """Whitened errors e (M,) that a fit left, orthonormal columns Q (M, k) of what was fitted, and
-    the cluster of each number, None where they are independent.
+    the jackknife of its clusters, None where numbers are independent.
     """
 
     e: Array
     Q: Array
-    clusters: NDArray[np.intp] | None
+    jackknife: Jackknife | None
 
 
 class Tested(NamedTuple):
@@ -43,7 +43,8 @@ def left_of(
 ) -> Left:
     """Rest that a fit of these columns (M, P) leaves of errors (M,)."""
     Q, _ = spanned(fitted)
-    return Left(beside(Q, errors), Q, clusters)
+    jackknife = None if clusters is None else Jackknife(Q, clusters)
+    return Left(beside(Q, errors), Q, jackknife)
 
 
 def coefficients(
@@ -70,20 +71,18 @@ def f_test(
     d = U.shape[1]
     s = U.T @ left.e
     unexplained = left.e - U @ s
-    fitted = left.Q.shape[1]
-    if left.clusters is None:
-        freedom = len(left.e) - fitted - d
+    if left.jackknife is None:
+        freedom = len(left.e) - left.Q.shape[1] - d
         if d == 0 or freedom < 1:
             return None
         variance = float(unexplained @ unexplained) / freedom
         F = float(s @ s) / max(d * variance, _TINY)
         return Tested(U, s, f_survival(F, d, freedom))
-    count = len(np.unique(left.clusters))
+    count = left.jackknife.count
     freedom = count - d
     if d == 0 or freedom < 1:
         return None
-    both = np.concatenate([left.Q, U], axis=1)
-    V = jackknife_meat(both, unexplained, left.clusters)[fitted:, fitted:]
+    V = left.jackknife.meat_beside(U, unexplained)
     T = float(s @ np.linalg.solve(V, s))
     F = T * freedom / (d * (count - 1))
     return Tested(U, s, f_survival(F, d, freedom))
