@@ -8,11 +8,11 @@ import pytest
 from poekin.solve.calibration import Calibration, Measurement, calibrate
 from tests.solve.calibration.fit.sagging import ARM, POINTS, SAG, measured, sagged, true_arm
 
-TRUTHS = 30
+TRUTHS = 15
 EACH = 10
 ROWS = 50
 KNOWN = 2500
-"""Configurations from which an arm is known: a fit's errors are smaller there by the root of 60."""
+"""Configurations from which an arm is known: a fit's errors are smaller there by the root of 50."""
 TWO_SIGMA = 1.96
 KINDS = [("reflectors", SAG), ("reflectors", 0.0), ("poses", 0.0), ("poses", SAG), ("point", 0.0), ("point", SAG),
          ("distance", 0.0), ("camera", 0.0), ("camera", SAG)]  # fmt: skip
@@ -44,7 +44,7 @@ def test_intervals_of_predicted_measurements_hold_their_share(kind, sag):
             C = found.measurement_covariance(q, s)
             sizes = np.sqrt(np.diagonal(C, axis1=1, axis2=2))
             inside.append(np.mean(np.abs(off) < TWO_SIGMA * sizes))
-    # 300 calibrations of 50 configurations: the share is known to a per cent
+    # 150 calibrations of 50 configurations: the share is known to 1.3 per cent or better
     assert 0.92 <= np.mean(inside) <= 0.98
 
 
