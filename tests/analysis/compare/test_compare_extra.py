@@ -470,3 +470,17 @@ def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
         Chain.from_space(turning[:3], np.eye(4)),
         TOL,
     )
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_seven_and_nine_parallel_joints_are_told_apart_without_a_search(monkeypatch, seed):
+    """Of 36 pairs of joints each would cost a search of some tenths of a second."""
+    searched = []
+    monkeypatch.setattr(unmatched_joints, "agreeing", lambda *models: searched.append(models))
+    rng = np.random.default_rng(seed)
+    short, long = (
+        Chain.from_space([screw.revolute([0, 0, 1], p) for p in rng.normal(size=(n, 3))], np.eye(4))
+        for n in (7, 9)
+    )
+    assert unmatched_joints.droppable(short, long, TOL) is None
+    assert searched == []

@@ -99,6 +99,14 @@ def test_all_else_is_refused_with_what_was_expected(statement, message):
     assert str(caught.value) == f"coupling: {message}"
 
 
+def test_of_a_long_word_that_was_not_expected_forty_characters_are_shown():
+    word = "abcdefghij" * 6
+    with pytest.raises(InputError) as caught:
+        parse_statements(f"J3 {word}", NAMES)
+    assert f"got {quote(word, 40)};" in str(caught.value)
+    assert quote(word, 40) != quote(word, 41)
+
+
 def test_what_is_singular_does_not_depend_on_the_unit():
     np.testing.assert_array_equal(parse_statements("J1 = 1e-10 J1", ["J1"]), [[1e-10]])
 

@@ -64,6 +64,11 @@ NO_TREES = {
         [revolute("i", "a", "c"), revolute("j", "b", "c")],
         "robot 'r': link 'c' has two parents: joint 'j' and joint 'i' (robot 'r')",
     ),
+    "two parents by later joints": (
+        ["a", "b", "c"],
+        [revolute("h", "a", "b"), revolute("i", "a", "c"), revolute("j", "b", "c")],
+        "robot 'r': link 'c' has two parents: joint 'j' and joint 'i' (robot 'r')",
+    ),
     "a joint onto itself": (
         ["a", "b"],
         [revolute("j", "b", "b")],

@@ -587,6 +587,27 @@ def test_options_that_are_none_are_refused(options, message):
         ik_all(arm("ur5"), np.eye(4), **options)
 
 
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"limits": 1}, "limits: expected True or False, got 1"),
+        ({"all_revolutions": 0}, "all_revolutions: expected True or False, got 0"),
+        ({"min_hits": 14.0}, "min_hits: expected a whole number"),
+        ({"restarts": 2000.0}, "restarts: expected a whole number"),
+        ({"iterations": 200.0}, "iterations: expected a whole number"),
+        ({"seed": False}, "seed: expected a whole number"),
+        ({"parallel": 0}, "parallel: expected True or False, got 0"),
+    ],
+    ids=str,
+)
+def test_a_setting_that_is_none_is_told_after_its_equal_was_accepted(options, message):
+    chain = arm("ur5")
+    T = chain.fk([0.4, -1.2, 1.5, -0.3, 0.8, 0.0])
+    assert len(ik_all(chain, T).solutions) == 8
+    with pytest.raises(InputError, match=message):
+        ik_all(chain, T, **options)
+
+
 def test_more_places_than_anybody_reads_are_refused():
     chain = arm("ur5")
     wide = pk.Chain.from_space(

@@ -348,6 +348,24 @@ def test_what_cannot_be_followed_is_refused(ur5, options, kind, says):
         follow(ur5, np.tile(np.eye(4), (3, 1, 1)), **options)
 
 
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"limits": 1}, "limits: expected True or False, got 1"),
+        ({"seed": False}, "seed: expected a whole number"),
+        ({"tol_position": True}, "tol_position: expected a positive number, got True"),
+        ({"tol_rotation": True}, "tol_rotation: expected a positive number, got True"),
+    ],
+    ids=str,
+)
+def test_a_setting_that_is_none_is_told_after_its_equal_was_accepted(ur5, options, message):
+    poses = ur5.fk(UR5_Q + np.linspace(0.0, 0.1, 3)[:, None])
+    assert follow(ur5, poses).success.all()
+    follow(ur5, poses, tol_position=1, tol_rotation=1)
+    with pytest.raises(InputError, match=message):
+        follow(ur5, poses, **options)
+
+
 def test_what_is_no_path_is_refused(ur5):
     with pytest.raises(ShapeError, match=r"expected a path \(N, 4, 4\), got shape \(4, 4\)"):
         follow(ur5, np.eye(4))
