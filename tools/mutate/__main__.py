@@ -23,6 +23,7 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Mapping
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 if importlib.util.find_spec("cosmic_ray") is None:
@@ -77,7 +78,9 @@ def main(arguments: list[str] | None = None) -> int:
         for path in paths(ROOT)
         if room(path) in asked
     }
-    every = [mutant for path, source in sources.items() for mutant in mutants_of(path, source)]
+    with ProcessPoolExecutor(said.workers) as pool:
+        of_modules = pool.map(mutants_of, sources, sources.values(), chunksize=8)
+        every = [mutant for found in of_modules for mutant in found]
     entries = [entry for entry in equivalent.entries() if room(entry.path) in asked]
     listed, stale = equivalent.listed(every, entries)
     chosen = [m for m in every if not said.module or any(part in m.path for part in said.module)]
