@@ -11,8 +11,8 @@ from ....groups.arrays import Array
 from ..model.configurations import configurations
 from ..model.problem import Problem
 from ..model.tsqr import least_squares, qr_r
+from ..selection.jackknife import Jackknife
 from .fitting import Fit
-from .jackknife import Jackknife
 from .losses import loss
 from .minimise import FitOptions, regular
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .....groups.arrays import Array
-from ...fit.jackknife import Jackknife
+from ...selection.jackknife import Jackknife
 from ...selection.spans import RANK, beside, column_sizes, directions_beside, spanned
 
 _CONVERGED = 1e-15

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 
 import numpy as np
@@ -41,7 +42,7 @@ class Reflectors:
         self.names = [reflector_name(problem, k, j) for j in range(self.count)]
         self._rigid = fit.noise.whitened(k, rigid)
         self._shifts = fit.noise.whitened(k, point_shifts(problem, fit.p, k))
-        self._motions: dict[tuple[int, ...], tuple[Array, NDArray[np.bool_]]] = {}
+        self._motions = functools.cache(self._motions_of)  # each round of a search asks again
 
     def tests(
         self,
@@ -86,7 +87,7 @@ class Reflectors:
         """Weighted sum of squares that motions of the tool and of these points leave of errors (N, d),
         and the rank of these motions where there is a weight.
         """
-        U, kept = self._motions_of(tuple(loose))
+        U, kept = self._motions(tuple(loose))
         along = np.einsum("ndk,nd->nk", U, e) * kept
         squares = np.sum(e**2, axis=1) - np.sum(along**2, axis=1)
         return float(weights @ squares), int(kept[weights > 0.0].sum())
@@ -96,14 +97,12 @@ class Reflectors:
         loose: tuple[int, ...],
     ) -> tuple[Array, NDArray[np.bool_]]:
         """Orthonormal directions U (N, d, k) of motions of the tool and of these points, and which of
-        them (N, k) there are; each round of a search asks again.
+        them (N, k) there are.
         """
-        if loose not in self._motions:
-            own = [3 * j + axis for j in loose for axis in range(3)]
-            columns = np.concatenate([self._rigid, self._shifts[..., own]], axis=2)
-            U, s, _ = np.linalg.svd(columns, full_matrices=False)
-            self._motions[loose] = U, s > _RANK * s[:, :1]
-        return self._motions[loose]
+        own = [3 * j + axis for j in loose for axis in range(3)]
+        columns = np.concatenate([self._rigid, self._shifts[..., own]], axis=2)
+        U, s, _ = np.linalg.svd(columns, full_matrices=False)
+        return U, s > _RANK * s[:, :1]
 
 
 def _effective(squares: Array, width: int) -> float:

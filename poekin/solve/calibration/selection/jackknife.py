@@ -15,12 +15,12 @@ _LEAST = 1e-6
 
 
 class _Alike(NamedTuple):
-    """Clusters of one size m: the rows (G, m) of each, W (G, m, m) with W^T W = (I - Q_g Q_g^T)^-1, and
-    errors (G, m) of the size of the noise along what a cluster alone tells.
+    """Clusters of one size m: the rows (G, m) of each, the inverse (G, m, m) of I - Q_g Q_g^T, and
+    errors (G, m) along what a cluster alone tells.
     """
 
     rows: NDArray[np.intp]
-    W: Array
+    inverse: Array
     alone: Array
 
 
@@ -44,22 +44,18 @@ class Jackknife:
         sizes = np.bincount(clusters)
         begins = np.cumsum(sizes) - sizes
         self.count = int(np.count_nonzero(sizes))
-        for size in np.unique(sizes[sizes > 0]).tolist():
+        for size in np.unique(sizes).tolist():
             firsts = begins[sizes == size]
             rows = order[firsts[:, None] + np.arange(size)]
             Q_g = Q[rows]
             left = np.eye(size) - Q_g @ np.swapaxes(Q_g, 1, 2)
-            values, V = np.linalg.eigh(left)
-            known = values > _LEAST
-            roots = np.where(known, 1.0 / np.sqrt(np.maximum(values, _LEAST)), 0.0)
-            W = np.swapaxes(V, 1, 2) * roots[..., None]
-            self._alike.append(_Alike(rows, W, np.sum(V, axis=2, where=~known[:, None, :])))
+            self._alike.append(_Alike(rows, *_inverse(left)))
 
     def meat(self, e: Array) -> Array:
         """M (P, P) = sum over g of Q_g^T a_g a_g^T Q_g, with the prior's rows as they are."""
         total = self._prior.T @ self._prior
-        for rows, W, alone in self._alike:
-            a = applied(np.swapaxes(W, 1, 2), applied(W, e[rows])) + alone
+        for rows, inverse, alone in self._alike:
+            a = applied(inverse, e[rows]) + alone
             u = applied(np.swapaxes(self._Q[rows], 1, 2), a)
             total += u.T @ u
         return total
@@ -77,15 +73,18 @@ class Jackknife:
         """
         d = U.shape[1]
         total = np.zeros((d, d))
-        for rows, W, _ in self._alike:  # U has no part along what a cluster alone tells of Q
-            X = W @ U[rows]
-            left, T = np.linalg.eigh(np.eye(d) - np.swapaxes(X, 1, 2) @ X)
-            X = X @ T
-            own = applied(np.swapaxes(X, 1, 2), applied(W, e[rows]))
-            # of what a cluster alone tells of U, a unit error
-            lengths = np.linalg.norm(np.swapaxes(W, 1, 2) @ X, axis=1)
-            alone = 1.0 / np.maximum(lengths, 1.0)
-            b = np.where(left > _LEAST, own / np.maximum(left, _LEAST), alone)
-            u = applied(T, b)
+        for rows, inverse, _ in self._alike:  # U has no part along what a cluster alone tells of Q
+            back = np.swapaxes(inverse @ U[rows], 1, 2)
+            own, alone = _inverse(np.eye(d) - back @ U[rows])
+            u = applied(own, applied(back, e[rows])) + alone
             total += u.T @ u
         return total
+
+
+def _inverse(A: Array) -> tuple[Array, Array]:
+    """Inverses of symmetric A (G, n, n), and the sums (G, n) of the directions where nothing is left."""
+    values, V = np.linalg.eigh(A)
+    # nothing that is multiplied by them has a part in those directions
+    scaled = V / np.maximum(values, _LEAST)[:, None, :]
+    alone = np.sum(V, axis=2, where=(values <= _LEAST)[:, None, :])
+    return scaled @ np.swapaxes(V, 1, 2), alone

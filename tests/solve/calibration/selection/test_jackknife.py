@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from poekin.solve.calibration.fit.jackknife import Jackknife
+from poekin.solve.calibration.selection.jackknife import Jackknife
 from poekin.solve.calibration.selection.spans import beside
 
 
@@ -39,6 +39,18 @@ def test_what_one_configuration_alone_tells_is_known_to_the_noise_of_the_others(
     jackknife = Jackknife(Q, np.repeat(np.arange(5), [2, 2, 2, 2, 1]))
     found = inverse @ jackknife.meat(e) @ inverse.T
     assert 0.2 < found[1, 1] < 0.6
+
+
+def test_what_two_numbers_of_one_configuration_alone_tell_is_known_to_the_noise_along_both():
+    J = np.zeros((9, 2))
+    J[:7, 0] = 1.0
+    J[7:, 1] = [2.0, 1.0]
+    e = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0, 0.0])
+    Q, R = np.linalg.qr(J)
+    inverse = np.linalg.inv(R)
+    jackknife = Jackknife(Q, np.repeat(np.arange(5), [2, 2, 2, 1, 2]))
+    found = inverse @ jackknife.meat(e) @ inverse.T
+    np.testing.assert_allclose(found[1, 1], 1.0 / 5.0, rtol=1e-12)  # a unit error over |(2, 1)|
 
 
 def test_a_prior_s_rows_count_as_they_are():
