@@ -82,9 +82,10 @@ class Jackknife:
 
 
 def _inverse(A: Array) -> tuple[Array, Array]:
-    """Inverses of symmetric A (G, n, n), and the sums (G, n) of the directions where nothing is left."""
+    """Inverses of symmetric A (G, n, n) but along directions where nothing is left, and sums (G, n) of
+    these.
+    """
     values, V = np.linalg.eigh(A)
-    # nothing that is multiplied by them has a part in those directions
-    scaled = V / np.maximum(values, _LEAST)[:, None, :]
-    alone = np.sum(V, axis=2, where=(values <= _LEAST)[:, None, :])
-    return scaled @ np.swapaxes(V, 1, 2), alone
+    known = (values > _LEAST)[:, None, :]
+    scaled = np.where(known, V / np.maximum(values, _LEAST)[:, None, :], 0.0)
+    return scaled @ np.swapaxes(V, 1, 2), np.sum(V, axis=2, where=~known)

@@ -41,11 +41,13 @@ def test_what_one_configuration_alone_tells_is_known_to_the_noise_of_the_others(
     assert 0.2 < found[1, 1] < 0.6
 
 
-def test_what_two_numbers_of_one_configuration_alone_tell_is_known_to_the_noise_along_both():
+@pytest.mark.parametrize("left", [0.0, 1e-3, 1.0])
+def test_what_two_numbers_of_one_configuration_alone_tell_is_known_to_the_noise_along_both(left):
+    """Whatever a fit that has not quite converged left of them."""
     J = np.zeros((9, 2))
     J[:7, 0] = 1.0
     J[7:, 1] = [2.0, 1.0]
-    e = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0, 0.0])
+    e = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 0.0, 2.0 * left, left])
     Q, R = np.linalg.qr(J)
     inverse = np.linalg.inv(R)
     jackknife = Jackknife(Q, np.repeat(np.arange(5), [2, 2, 2, 1, 2]))
