@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,16 +10,6 @@ from ....groups.vectors import applied
 
 _LEAST = 1e-6
 """Part of an error below which a fit left nothing of it: only its cluster knows of it."""
-
-
-class _Alike(NamedTuple):
-    """Clusters of one size m: the rows (G, m) of each, the inverse (G, m, m) of I - Q_g Q_g^T, and
-    errors (G, m) along what a cluster alone tells.
-    """
-
-    rows: NDArray[np.intp]
-    inverse: Array
-    alone: Array
 
 
 class Jackknife:
@@ -39,7 +27,9 @@ class Jackknife:
     ) -> None:
         self._Q = Q
         self._prior = Q[len(clusters) :]
-        self._alike: list[_Alike] = []
+        # of clusters of one size m: their rows (G, m), the inverses (G, m, m) of I - Q_g Q_g^T, and
+        # errors (G, m) along what a cluster alone tells
+        self._alike: list[tuple[NDArray[np.intp], Array, Array]] = []
         order = np.argsort(clusters, kind="stable")
         sizes = np.bincount(clusters)
         begins = np.cumsum(sizes) - sizes
@@ -49,7 +39,7 @@ class Jackknife:
             rows = order[firsts[:, None] + np.arange(size)]
             Q_g = Q[rows]
             left = np.eye(size) - Q_g @ np.swapaxes(Q_g, 1, 2)
-            self._alike.append(_Alike(rows, *_inverse(left)))
+            self._alike.append((rows, *_inverse(left)))
 
     def meat(self, e: Array) -> Array:
         """M (P, P) = sum over g of Q_g^T a_g a_g^T Q_g, with the prior's rows as they are."""
