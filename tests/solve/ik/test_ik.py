@@ -479,14 +479,15 @@ def test_targets_may_be_read_only_or_without_alignment():
 
 @pytest.mark.parametrize("aim", ["middle", "nearest", "manipulability"])
 def test_an_aim_leaves_bad_targets_alone(aim):
-    T, q0 = PANDA.fk(PANDA.random(0, 3)), PANDA.random(1, 3)
+    q = PANDA.random(0, 3)
+    T, q0 = PANDA.fk(q), q + 0.1  # near: a restart draws by the place in the batch
     found = ik(
         PANDA, np.where(np.arange(3)[:, None, None] == 1, np.nan, T), secondary_objective=aim, q0=q0
     )
     assert found.reason.tolist() == ["solved", "bad target", "solved"]
-    np.testing.assert_array_equal(
-        found.q[[0, 2]], ik(PANDA, T, secondary_objective=aim, q0=q0).q[[0, 2]]
-    )
+    # as many as are good: BLAS may round a matrix by where it lies in memory
+    others = ik(PANDA, T[[0, 2]], secondary_objective=aim, q0=q0[[0, 2]])
+    np.testing.assert_array_equal(found.q[[0, 2]], others.q)
 
 
 @pytest.mark.parametrize("aim", ["middle", "nearest", "manipulability"])

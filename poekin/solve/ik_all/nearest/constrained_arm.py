@@ -10,7 +10,7 @@ import numpy as np
 from ....analysis.axis_lines import Marks, place, prismatic
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.vectors import applied, directions, dots, normalised
+from ....groups.vectors import directions, dots, normalised
 from ....model.chain_data import AnyChain, ChainData
 from ..structure import Family, meeting_point
 
@@ -90,14 +90,19 @@ class ConstrainedArm:
 
     def moved(self, motions: Motions, x: Array, home: Array) -> ConstrainedArm:
         """The arm moved by parameters x (p,) and the home pose by a twist (6,) in the tool frame."""
-        R = so3.exp(motions.turns @ x)
+        R = so3.exp(_products(motions.turns, x))
         lever = self.points - motions.centres
         return replace(
             self,
-            directions=normalised(applied(R, self.directions)),
-            points=motions.centres + applied(R, lever) + motions.shifts @ x,
+            directions=normalised(_products(R, self.directions[:, None])),
+            points=motions.centres + _products(R, lever[:, None]) + _products(motions.shifts, x),
             home=self.home @ se3.exp(home),
         )
+
+
+def _products(M: Array, x: Array) -> Array:
+    """M x, the same for equal rows: BLAS may round them by where they lie in memory."""
+    return (M * x).sum(axis=-1)
 
 
 def rounded_arm(chain: ChainData, family: Family) -> ConstrainedArm:
