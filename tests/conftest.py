@@ -7,6 +7,8 @@
 import gc
 import importlib.metadata
 import os
+import random
+import time
 
 # Two workers with two threads each for small matrices wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -81,6 +83,20 @@ if providers is not None and hasattr(providers, "_get_local_constants"):
     providers._get_local_constants = lambda: no_constants
 
 
+BEGUN = time.monotonic()
+
+
+def pytest_addoption(parser):
+    """Options by which `.ci/run` runs as many of the slow files as it has time for."""
+    parser.addoption(
+        "--within",
+        type=float,
+        metavar="SECONDS",
+        help="begin no test after so many seconds: those left are skipped, and named by file",
+    )
+    parser.addoption("--order", metavar="SEED", help="run the files in an order that it draws")
+
+
 def pytest_configure(config):
     """Name the marker of slow files; let a seed be stronger than the profile that has its own."""
     config.addinivalue_line(
@@ -91,12 +107,20 @@ def pytest_configure(config):
         settings.load_profile("seeded")
 
 
-def pytest_collection_modifyitems(items):
-    """Mark the tests of slow files."""
+def pytest_collection_modifyitems(config, items):
+    """Mark the tests of slow files; put the files in the order that `--order` draws."""
     for item in items:
         below = item.nodeid.removeprefix("tests/")
         if below.startswith(SLOW):
             item.add_marker(pytest.mark.slow)
+    if (seed := config.getoption("--order")) is not None:
+        files = sorted({_file(item) for item in items})
+        random.Random(seed).shuffle(files)
+        items.sort(key=lambda item: files.index(_file(item)))
+
+
+def _file(item):
+    return item.nodeid.partition("::")[0]
 
 
 def pytest_terminal_summary(terminalreporter):
@@ -128,6 +152,9 @@ def _skip_without_its_package():
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_setup(item):
+    within = item.config.getoption("--within")
+    if within is not None and time.monotonic() - BEGUN > within:
+        pytest.skip(f"no time left for {_file(item)}")
     return (yield from _skip_without_its_package())
 
 
