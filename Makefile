@@ -90,7 +90,7 @@ readable: $(VENV)/dev
 	$(PY) -m tools.readable
 
 docs: $(VENV)/docs
-	@$(PY) -m sphinx -q -W --keep-going -E -a -b html docs docs/_build
+	@$(PY) -m sphinx -q -W --keep-going -E -a -j 2 -b html docs docs/_build
 	@echo "The pages: $(CURDIR)/docs/_build/index.html"
 
 mutate: $(VENV)/dev

@@ -52,6 +52,7 @@ SLOW = (
     *(
         "solve/calibration/fit/test_initial_guess.py",
         "solve/calibration/report/test_html_report.py",
+        "solve/calibration/causes/test_most_likely.py",
         "solve/calibration/causes/test_wrong_data.py",
         "solve/calibration/diagnostics/effects/test_false_alarms.py",
         "solve/calibration/fit/test_coverage.py",
@@ -65,7 +66,7 @@ SLOW = (
     "formulas/ik/test_three_parallel.py",
 )
 """Files and folders, below tests/, of more than half the time and a seventh of the tests; `make
-test-all` runs them too.
+test-all` runs them too. Of other files single tests are marked, as those of every real robot.
 """
 
 # In samples of mutants 50 examples let none through that 100 see. Where one number of many
