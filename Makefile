@@ -33,12 +33,11 @@ ifneq ($(SETUP_OF),$(CURDIR))
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help report test test-all test-slow test-deep test-processors lint style types readable wheel-check release-check docs mutate fuzz
+.PHONY: help report test test-all test-deep test-processors lint style types readable wheel-check release-check docs mutate fuzz
 
 help:
 	@echo "make test         run all tests but the slow ones (5 minutes); ONLY=tests/groups runs all of those"
 	@echo "make test-all     run all tests"
-	@echo "make test-slow    run those that make test leaves out; WITHIN=600 SEED=1 as many as ten minutes allow, in an order drawn"
 	@echo "make test-deep    run them with forty times as many new examples (hours); ONLY=tests/groups runs those alone"
 	@echo "make test-processors  run the numeric tests as older processors would; ONLY='nehalem haswell' takes those"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
@@ -60,10 +59,6 @@ test: $(VENV)/dev
 
 test-all: $(VENV)/dev
 	@$(PYTEST)
-
-# Of the slow files alone; WITHIN=600 begins none after ten minutes, in an order that SEED draws, and names those left out.
-test-slow: $(VENV)/dev
-	@$(PYTEST) -m slow $(if $(WITHIN),--within $(WITHIN)) $(if $(SEED),--order $(SEED)) $(ONLY)
 
 # A test may take forty times as long as in make test, which is far less than ten minutes there.
 test-deep: $(VENV)/dev

@@ -7,8 +7,6 @@
 import gc
 import importlib.metadata
 import os
-import random
-import time
 
 # Two workers with two threads each for small matrices wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -52,7 +50,6 @@ SLOW = (
     *(
         "solve/calibration/fit/test_initial_guess.py",
         "solve/calibration/report/test_html_report.py",
-        "solve/calibration/causes/test_most_likely.py",
         "solve/calibration/causes/test_wrong_data.py",
         "solve/calibration/diagnostics/effects/test_false_alarms.py",
         "solve/calibration/fit/test_coverage.py",
@@ -66,7 +63,7 @@ SLOW = (
     "formulas/ik/test_three_parallel.py",
 )
 """Files and folders, below tests/, of more than half the time and a seventh of the tests; `make
-test-all` runs them too. Of other files single tests are marked, as those of every real robot.
+test-all` runs them too.
 """
 
 # In samples of mutants 50 examples let none through that 100 see. Where one number of many
@@ -84,20 +81,6 @@ if providers is not None and hasattr(providers, "_get_local_constants"):
     providers._get_local_constants = lambda: no_constants
 
 
-begun = 0.0  # when the tests were collected, which takes minutes where nothing is compiled yet
-
-
-def pytest_addoption(parser):
-    """Options by which `.ci/run` runs as many of the slow files as it has time for."""
-    parser.addoption(
-        "--within",
-        type=float,
-        metavar="SECONDS",
-        help="begin no test so many seconds after the first could begin: those left are skipped, and named by file",
-    )
-    parser.addoption("--order", metavar="SEED", help="run the files in an order that it draws")
-
-
 def pytest_configure(config):
     """Name the marker of slow files; let a seed be stronger than the profile that has its own."""
     config.addinivalue_line(
@@ -108,20 +91,12 @@ def pytest_configure(config):
         settings.load_profile("seeded")
 
 
-def pytest_collection_modifyitems(config, items):
-    """Mark the tests of slow files; put the files in the order that `--order` draws."""
+def pytest_collection_modifyitems(items):
+    """Mark the tests of slow files."""
     for item in items:
         below = item.nodeid.removeprefix("tests/")
         if below.startswith(SLOW):
             item.add_marker(pytest.mark.slow)
-    if (seed := config.getoption("--order")) is not None:
-        files = sorted({_file(item) for item in items})
-        random.Random(seed).shuffle(files)
-        items.sort(key=lambda item: files.index(_file(item)))
-
-
-def _file(item):
-    return item.nodeid.partition("::")[0]
 
 
 def pytest_terminal_summary(terminalreporter):
@@ -134,8 +109,6 @@ def pytest_collection_finish():
     """Look for garbage more seldom, and never among what was imported: a tenth of the time of all
     tests.
     """
-    global begun
-    begun = time.monotonic()
     gc.collect()
     gc.freeze()
     gc.set_threshold(50_000, 20, 50)
@@ -155,9 +128,6 @@ def _skip_without_its_package():
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_setup(item):
-    within = item.config.getoption("--within")
-    if within is not None and time.monotonic() - begun > within:
-        pytest.skip(f"no time left for {_file(item)}")
     return (yield from _skip_without_its_package())
 
 

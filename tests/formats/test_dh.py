@@ -140,7 +140,6 @@ def test_the_panda_comes_out_as_franka_publishes_it():
     )
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 @pytest.mark.filterwarnings("ignore::poekin.errors.PoekinWarning")
 def test_every_chain_of_the_real_robots_has_a_table(convention):

@@ -177,7 +177,6 @@ def test_the_bound_is_at_most_20_times_the_worst_error_of_the_package_s_arms_and
     assert max(shares.values()) > 0.5
 
 
-@pytest.mark.slow
 def test_chains_of_every_real_robot_are_as_exact_as_floats_can_say():
     count = 0
     for name in sorted(example_robots()[0]):

@@ -95,7 +95,6 @@ def test_a_screw_made_exact_keeps_its_line():
     np.testing.assert_allclose(point, [5, 0, 0], rtol=0, atol=2e-15)
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::poekin.errors.PoekinWarning")
 def test_no_joint_of_a_real_robot_looks_helical():
     for name in erd.available():

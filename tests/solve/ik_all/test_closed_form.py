@@ -168,7 +168,6 @@ def geometries() -> dict[str, pk.Chain]:
     return dict(found.values())
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::poekin.errors.PoekinWarning")
 def test_no_solution_of_the_robots_of_example_robot_data_is_missed_silently():
     try:
