@@ -209,10 +209,9 @@ def validate(
     Where a robot came from a URDF (a file, a text, a pipe, evaluated xacro), Pinocchio reads that
     very text. Any other (a DH table, MJCF, a Robot that was built or changed since) goes to
     Pinocchio as the text of `to_urdf`: then what was read is not judged, but all that is computed
-    from it. A chain that would cross a floating or
-    planar joint starts at the child link of the last such joint, and what moves above that joint is
-    a chain of its own; the notes of the chains say so. Each error is the largest absolute entry of
-    a difference, lengths ÷ R.
+    from it. A chain that would cross a floating or planar joint starts at the child link of the
+    last such joint, and what moves above that joint is a chain of its own; the notes of the chains
+    say so. Each error is the largest absolute entry of a difference, lengths ÷ R.
     """
     whole(samples, "samples", 0)
     model, oracle = _both(robot)
@@ -253,11 +252,9 @@ def chain_errors(
     Every error is the largest absolute entry of a difference, ÷ R (the chain's reach) where it is a
     length:
     the pose's rotation part as it is and its translation ÷ R; a Jacobian's angular rows as they are
-    and its linear
-    rows ÷ R. This is never milder than the whole ÷ R, as R ≥ 1. Columns of coordinates that the
-    chain does not have
-    are zero here, and so they must be in Pinocchio. A coordinate that Pinocchio does not know is an
-    infinite error.
+    and its linear rows ÷ R. This is never milder than the whole ÷ R, as R ≥ 1. Columns of
+    coordinates that the chain does not have are zero here, and so they must be in Pinocchio. A
+    coordinate that Pinocchio does not know is an infinite error.
     """
     unknown = [name for name in chain.q_names if name not in oracle.coordinates]
     if unknown:

@@ -56,8 +56,8 @@ def read_configurations(
     them. Empty lines are passed over.
 
     Raises: FileError for a file that cannot be read; InputError with file and line for a line of
-    the wrong length or
-    a cell that is no number; UnknownName for a header with a name that is no coordinate.
+    the wrong length or a cell that is no number; UnknownName for a header with a name that is no
+    coordinate.
     """
     besides = (TIME, *ERRORS, *velocity_columns(columns.names))
     return read_rows(given, columns._replace(besides=besides), progress)[0]

@@ -80,8 +80,7 @@ def twist_off(T_s0, T_s1, s, ds):
     rounding.
 
     Each place is off by 40 u as above, of its lengths and those of v; a logarithm by pi/2 times
-    that, as its
-    derivative is at most that; the twist itself too, and that is not divided by ds.
+    that, as its derivative is at most that; the twist itself too, and that is not divided by ds.
     """
     a, b = motion.screw(T_s0, T_s1, s), motion.screw(T_s0, T_s1, s + ds)
     xi = se3.log(se3.inverse(T_s0) @ T_s1)

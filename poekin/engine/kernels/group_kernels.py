@@ -159,9 +159,8 @@ def se3_left_inverse(xi, J):
 @kernel("r3 w1", returns="int")
 def first_defect(M, found):
     """Index of the first matrix whose 3x3 corner misses a rotation by more than found[0], or of
-    which the fourth row
-    is off; on return `found` holds the largest entry of abs(R R^T - I), det R and the fourth row's
-    error. Else -1, or -2 where there is a fourth row with NaN in it.
+    which the fourth row is off; on return `found` holds the largest entry of abs(R R^T - I), det R
+    and the fourth row's error. Else -1, or -2 where there is a fourth row with NaN in it.
     """
     limit = found[0]
     none = -1

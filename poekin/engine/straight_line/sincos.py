@@ -1,9 +1,8 @@
 """Sine and cosine of one angle together, without a table: a third of the library's time.
 
 The angle loses a multiple k of pi/2, which stands here in three parts of which k times the first
-two is exact; what
-is left, |r| <= pi/4, goes through both Taylor polynomials. Beyond `MODERATE` the library's
-functions serve.
+two is exact; what is left, |r| <= pi/4, goes through both Taylor polynomials. Beyond `MODERATE` the
+library's functions serve.
 Absolute error at most 2.3e-16 (tests/engine/straight_line/test_sincos.py).
 """
 

@@ -20,9 +20,8 @@ class Statements:
     """Statements over s0, c0 ..., sines and cosines of the angles x0 ..., and coordinates q0 ....
 
     `reads` are (name, array, index) of the inputs in use and `lines` (name, expression). An output
-    is an expression
-    or, where it does not depend on the configuration, a number; an angle is an expression,
-    `angle_reads` its inputs.
+    is an expression or, where it does not depend on the configuration, a number; an angle is an
+    expression, `angle_reads` its inputs.
     """
 
     reads: tuple[Read, ...]

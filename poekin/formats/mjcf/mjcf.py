@@ -85,11 +85,10 @@ def read(path: FilePath) -> Robot:
     order of the joints.
 
     Raises: FileError for a file that cannot be read, is empty, a directory or larger than 64 MiB;
-    ModelError for a
-    root other than <mujoco>, a document type declaration, a file to include that is not there, a
-    model that attaches itself, <replicate> that makes more than 5000 elements, and whatever MuJoCo
-    refuses, with its own words (a plugin that is not loaded, too); MissingExtra without the package
-    mujoco.
+    ModelError for a root other than <mujoco>, a document type declaration, a file to include that
+    is not there, a model that attaches itself, <replicate> that makes more than 5000 elements, and
+    whatever MuJoCo refuses, with its own words (a plugin that is not loaded, too); MissingExtra
+    without the package mujoco.
     Warns: PoekinWarning for what is left out or not what it was (see the top of this module).
     Accuracy: poses within 1e-13 reach of MuJoCo's own (tests/formats/mjcf/test_mjcf.py).
     """

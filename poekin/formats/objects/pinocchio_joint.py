@@ -64,8 +64,7 @@ def motions(joint: Any, name: str) -> list[ElementaryMotion]:
     """The elementary motions of a joint of a model, one after the other.
 
     Raises: ModelError that names the joint where it has none: spherical (a unit quaternion) and
-    ellipsoid joints, and
-    a mimic joint or a type not known here whose axis cannot be read.
+    ellipsoid joints, and a mimic joint or a type not known here whose axis cannot be read.
     """
     kind = joint_type(joint)
     bare = extracted(joint)

@@ -88,8 +88,7 @@ def make_robot(model: Any) -> Robot:
 
     Parameters: model. Returns: Robot; its q is in the order of the model's.
     Raises: ModelError that names the joint where Robot has no such kind: spherical, ellipsoid, and
-    for a model
-    of Pinocchio 2.
+    for a model of Pinocchio 2.
     Accuracy: placements as they are; that of a frame on another one within 4 u of their distances
     from the joint. Source: Pinocchio's documentation of Model and ModelFrame.
     """

@@ -1,8 +1,8 @@
 """Changes of the pose and the Jacobian when the screws move: A_i <- Ad(e^eta_i) A_i, M <- M e^eta.
 
 The conjugation keeps every axis unit and every pitch as it is. With P_i = e^{A_1 x_1} ... e^{A_i
-x_i} it turns
-e^{A_i x_i} into e^eta_i e^{A_i x_i} e^-eta_i, so the pose f = P_n M moves by the space twist
+x_i} it turns e^{A_i x_i} into e^eta_i e^{A_i x_i} e^-eta_i, so the pose f = P_n M moves by the
+space twist
 
     df f^-1 = sum over i of (Ad(P_{i-1}) - Ad(P_i)) eta_i + Ad(f) eta
 

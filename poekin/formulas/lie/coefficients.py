@@ -5,10 +5,9 @@ theta.
     E = (t/2) cot(t/2)   D = (1 - E) / t^2         and B'/t, C'/t, D'/t
 
 A and E cancel nowhere. B and C subtract nearly equal numbers when t is small: there they are one
-Taylor polynomial
-in t^2, B below t = 1, C and the derivatives below t = 2, where the closed form still loses a
-factor of 10. exp takes the polynomials of B and C below t = 1 alone, which are shorter there. D and D'/t
-are sums of partial fractions,
+Taylor polynomial in t^2, B below t = 1, C and the derivatives below t = 2, where the closed form
+still loses a factor of 10. exp takes the polynomials of B and C below t = 1 alone, which are
+shorter there. D and D'/t are sums of partial fractions,
 
     D = sum over k of 2 / ((2 pi k)^2 - t^2)        D'/t = sum over k of 4 / ((2 pi k)^2 - t^2)^2,
 

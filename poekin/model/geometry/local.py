@@ -74,8 +74,7 @@ def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
 
 def turned_least(z: Array) -> Array:
     """The rotation that takes (0, 0, 1) to the unit vector z by the smallest angle; by way of
-    diag(1, -1, -1) where
-    z points down, so that it has no singularity.
+    diag(1, -1, -1) where z points down, so that it has no singularity.
     """
     x, y, c = (z / np.linalg.norm(z)).tolist()
     s = 1.0 if c >= 0 else -1.0

@@ -1,11 +1,9 @@
 """Hypothesis strategies for kinematics: angles, axes, twists, rotations, poses and batches of them.
 
 The one idea: magnitudes are log-uniform and independent, an angle never scaled together with a
-length. With that
-a logarithm or exponential that is wrong in some decade is found within a few hundred cases; with
-Gaussian samples it
-is not. 0, every switch point of the package's formulas ± 1 ulp, π - 10⁻ᵏ and π itself are drawn on
-purpose.
+length. With that a logarithm or exponential that is wrong in some decade is found within a few
+hundred cases; with Gaussian samples it is not. 0, every switch point of the package's formulas ± 1
+ulp, π - 10⁻ᵏ and π itself are drawn on purpose.
 Everything shrinks, towards 0 and the x axis. All arrays are float64 and read-only, in rad and m,
 twists (ω; v), poses of a frame in the base frame; what is drawn is no more exact than its rounding.
 

@@ -6,8 +6,8 @@ position; and where the link frames sit changes neither A nor M: that is the pap
 Parameters: chain, `poekin.Chain` or what has its attributes and methods, with as many of them
 replaced as one likes;
 q (m,), coordinates, rad or m; q0 (m,), added to them; P, Q (4, 4), poses of the old base in the new
-one, and of the
-new tool in the old one, m; frames (n, 2, 4, 4), poses of joints and links in the base frame.
+one, and of the new tool in the old one, m; frames (n, 2, 4, 4), poses of joints and links in the
+base frame.
 Returns: error ÷ bound, 0 to 1; a pure number. Raises: LawViolation above 1, with the law, the
 error, its bound, the arguments, and the chain's screws and home pose.
 Source: Park 1994, Section II.
