@@ -153,6 +153,7 @@ FAULTS = [
     ("0,1,100,0.1", "expected the number of a point, 1 to 3, got 0"),
     ("1.5,1,100,0.1", "expected the number of a point, 1 to 3, got 1.5"),
     ("3,3,100,0.1", "expected two different points, got 3 twice"),
+    ("2,2,100,0.1", "expected two different points, got 2 twice"),
     ("2,1,100,0.1", "the distance of 2 and 1 is there twice"),
     ("1,2,100,0.1", "the distance of 1 and 2 is there twice"),
     ("2,3,-1,0.1", "expected a distance above 0, got -0.001 m"),

@@ -134,6 +134,30 @@ def test_the_rule_ends_where_errors_within_1e_9_stop_falling_and_keeps_the_least
     assert least == pytest.approx(min(errors), rel=1e-3)
 
 
+def test_a_last_step_that_makes_the_error_larger_is_taken_back():
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    found, at, errors = np.empty((1, 6)), [], []
+
+    def asked(x, Tx, J):
+        at.append(x.copy())
+        forward(x, Tx, J)
+        # never nearer than 1e-11, and once there it is farther
+        Tx[0, 3] += 1e-11 * ARM.reach * (1 + (min(errors, default=1.0) < 1e-9))
+        errors.append(np.sqrt(confirmed.size(confirmed.pose_error(Tx, T), ARM.reach)))
+
+    def given(branch, T):
+        T[:] = np.eye(4)
+
+    work = np.empty((14, 6))
+    rows = np.array([branch(q + 1e-3)])
+    count = confirmed.select(asked, given, T, rows, SIZES, np.empty((4, 4)), work, found)
+    assert count == 1
+    assert errors[-1] > errors[-2]
+    assert not np.array_equal(at[-1], at[-2])
+    np.testing.assert_array_equal(found[0], at[-2])
+
+
 def test_a_size_is_the_sum_of_six_squares_lengths_by_the_reach():
     e = np.array([2.0, 3.0, 5.0, 7.0, 11.0, 13.0])
     assert confirmed.size(e, 1.0) == 4 + 9 + 25 + 49 + 121 + 169

@@ -108,6 +108,17 @@ def test_a_double_root_is_found_once_and_is_flat(at):
     assert abs(found[0, 1]) <= 1e-6
 
 
+@pytest.mark.parametrize("simple", [(4.0, 5.0), (0.5, 4.0), (0.5, 1.0)])
+def test_a_double_root_is_found_once_after_any_number_of_simple_ones(simple):
+    # a product of three factors, of which the double one curves by more than 0.1 beside its root
+    f = with_roots([*simple, 2.5, 2.5], [])
+    # sums of 64 values of at most 1 lift f off 0 by some u
+    found = collected(f, 1e-14)
+    assert len(found) == 3
+    # f is below the noise within sqrt(2e-14 / 0.1) of the double root
+    assert apart(np.array([*simple, 2.5]), found[:, 0]).min(axis=1).max() <= 1e-6
+
+
 def test_a_root_at_the_end_of_an_arc_is_found_once():
     at = 0.0923
     f = np.zeros(17)
