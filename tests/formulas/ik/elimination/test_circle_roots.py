@@ -156,6 +156,11 @@ def test_values_at_the_samples_tell_the_coefficients_and_what_is_beyond_them():
     assert circle_roots.size_and_noise(back)[1] >= 0.09
 
 
+def test_coefficients_of_no_number_have_no_size_and_no_noise():
+    # so a target that is not finite is told as one whose coefficients are all zero
+    assert circle_roots.size_and_noise([math.nan] * circle_roots.COEFFICIENTS) == (0.0, 0.0)
+
+
 @pytest.mark.parametrize("arc", range(circle_roots.ARCS))
 def test_coefficients_on_an_arc_begin_and_end_with_the_values_at_its_ends(arc):
     f = [*map(float, np.random.default_rng(2).normal(size=17))]
