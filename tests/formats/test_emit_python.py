@@ -9,7 +9,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
@@ -62,8 +62,18 @@ def test_it_computes_what_the_chain_computes_in_any_batch_shape(case):
         assert np.abs(got - wanted).max(initial=0.0) <= within
 
 
+# The angle of two parallel axes is q1 + q2 + 3 pi / 4, a sum of three.
+TILTED = np.array([10, 1, -1]) / np.sqrt(102)
+PARALLEL = pk.Chain(
+    [[1, 0, 0, 0, 0, 0], [1, 0, 0, 0, 0, 0], [*TILTED, 0, 0, 0]],
+    np.eye(4),
+    frame="space",
+)
+
+
 @FEWER
 @given(cases())
+@example((PARALLEL, "space", np.array([3.0, 0.1, 0.0])))  # the order of the sum shows
 def test_it_is_the_program_to_the_last_bit(case):
     chain, frame, q = case
     q = q.reshape(-1, chain.dof) if q.size else np.zeros((2, chain.dof))

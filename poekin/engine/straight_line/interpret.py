@@ -20,14 +20,16 @@ def evaluate(program: Program, q: Array) -> Array:
 
 
 def angles(program: Program, q: Array) -> Array:
-    """The angles (N, j) whose sines and cosines a program takes, at configurations q (N, m)."""
-    x = np.empty((len(q), len(program.angles)))
+    """The angles (N, j) whose sines and cosines a program takes, at configurations q (N, m): sums in
+    the order of `machine_code`.
+    """
+    x = np.zeros((len(q), len(program.angles)))
     for j, angle in enumerate(program.angles):
-        x[:, j] = angle.offset
         if angle.base is not None:
-            x[:, j] += x[:, angle.base]
+            x[:, j] = x[:, angle.base]
         for k, factor in angle.terms:
             x[:, j] += factor * q[:, k]
+        x[:, j] += angle.offset
     return x
 
 
