@@ -154,6 +154,11 @@ function readHash(poekin) {
     }
 }
 
+function followHash(poekin) {
+    readHash(poekin);
+    addEventListener("hashchange", () => readHash(poekin));
+}
+
 async function copyLink(poekin, pressed) {
     try {
         history.replaceState(null, "", toHash(poekin));
@@ -194,6 +199,17 @@ function toolbar(poekin, drawing) {
     retheme();
 }
 
+// Where the browser cannot draw: words in the picture's place, and sliders with their numbers.
+function showNumbersAlone(poekin, panel) {
+    const text = "The arm cannot be drawn: this browser has no WebGL 2, or it is switched off. "
+        + "Sliders and numbers work without it.";
+    document.getElementById("canvasTarget").append(element("p", { class: "no-picture", role: "alert", text }));
+    document.querySelector(".layers").closest(".section").hidden = true;
+    poekin.on("change", () => panel.update());
+    poekin.on("tip", () => panel.retip());
+    followHash(poekin);
+}
+
 async function open() {
     const scene = JSON.parse(document.getElementById("poekin-scene").textContent);
     const poekin = new State(scene, globalThis.poekinKinematics);
@@ -204,6 +220,11 @@ async function open() {
     window.poekin = poekin;
     const panel = new Panel(poekin);
     panel.update();
+    if (document.createElement("canvas").getContext("webgl2") === null) {
+        showNumbersAlone(poekin, panel);
+        opened(poekin);
+        return;
+    }
     poekin.K = await window.poekinPlot;
     const drawing = new Drawing(poekin.K, poekin);
     const labels = new Labels(poekin.K, poekin, drawing);
@@ -232,8 +253,7 @@ async function open() {
         panel.retip();
         later();
     });
-    readHash(poekin);
-    addEventListener("hashchange", () => readHash(poekin));
+    followHash(poekin);
     draw();
     toolbar(poekin, drawing);
     drawing.fit();
