@@ -61,6 +61,7 @@ def test_angles_of_less_than_a_turn_and_lengths_are_not(a, b, c):
 def test_wide_limits_and_other_units_are_respected():
     wide = ARM.replace(limits=[[-50.0, 50.0], [-1, 1], [-1, 1]])
     assert warned(lambda: wide.fk([45.0, 0, 0])) == []
+    assert warned(lambda: wide.fk([50.0, 0, 0])) == []
     assert warned(lambda: wide.fk([51.0, 0, 0])) != []
     geared = pk.Chain.from_space(
         [TURN], np.eye(4), coupling=[[np.pi / 180]], limits=[[-180, 180]], q_names=["deg"]

@@ -138,6 +138,18 @@ def test_a_way_in_for_one_configuration_minds_its_length():
                 call(wrong)
 
 
+@pytest.mark.parametrize("frame", ["space", "body", "hybrid", 2])
+def test_velocities_of_a_batch_are_those_of_its_configurations(frame):
+    arm = pk.load("panda").chain(tip="panda_hand")
+    q = arm.random(0, 10).reshape(2, 5, 7)
+    dq = np.random.default_rng(1).normal(size=q.shape)
+    found = arm.velocity(q, dq, frame)
+    assert found.shape == (2, 5, 6)
+    expected = np.einsum("...ij,...j->...i", arm.jacobian(q, frame), dq)
+    # sums of seven products, of a Jacobian that is as exact
+    assert np.abs(found - expected).max() <= 100 * 2.0**-53 * np.abs(dq).sum(axis=-1).max()
+
+
 def test_where_the_jacobian_alone_is_asked_for_one_pose_holds_all_of_its_poses(monkeypatch):
     given = []
     kernel = SimpleNamespace(call=lambda table, rows, code, T, J: given.append(T.shape))
