@@ -161,6 +161,9 @@ def test_velocity_limits_of_chains_and_robots_are_those_of_their_readings():
     coupled = chain.coupled("J3 = J2 + J3")
     np.testing.assert_array_equal(coupled.velocity_limits, [1.0, 2.0, 5.0, np.inf, 5.0, 6.0])
     np.testing.assert_array_equal(own_speeds(coupled), chain.velocity_limits)
+    # said of joints alone where the readings' allow more
+    said = [np.inf, np.inf, 3.0, np.inf, np.inf, np.inf]
+    np.testing.assert_array_equal(coupled.joint_velocity_limits, said)
     fast = [replace(joint, velocity=2.0) for joint in ROBOT.joints if joint.kind != "fixed"]
     fast += [joint for joint in ROBOT.joints if joint.kind == "fixed"]
     robot = pk.Robot("fast", ROBOT.links, fast, coupling="J3 = J2 + J3")

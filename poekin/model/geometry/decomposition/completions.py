@@ -51,10 +51,9 @@ def completions(
             for i in reversed(range(n - made_of + 1)):
                 yield from _wrists(joints, i, made_of, reach, tolerance)
                 yield from _parallels(joints, i, made_of, reach, tolerance)
-    if n <= 3:
-        place = _generic_point(joints, reach, _PLACES[0])
-        wrist = [_turns(e, place) for e in np.array(_ASKEW)]
-        yield from _filled([*joints, *wrist], n, "a point of the tip")
+    place = _generic_point(joints, reach, _PLACES[0])
+    wrist = [_turns(e, place) for e in np.array(_ASKEW)]
+    yield from _filled([*joints, *wrist], n, "a point of the tip")
 
 
 def _wrists(
@@ -135,7 +134,7 @@ def _filled(
     first: int,
     words: str,
 ) -> Iterator[Completion]:
-    """Completions of joints with a wrist to six, by prismatic joints at the end."""
+    """Completions of joints with a wrist to six, by prismatic joints at the end; none of more."""
     short = 6 - len(six)
     if short < 0:
         return
