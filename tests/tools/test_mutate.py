@@ -342,6 +342,19 @@ def test_a_module_runs_as_it_can(module, mode):
     assert suites.mode(names.module(module)).value == mode
 
 
+def test_no_mutant_meets_the_cache_s_own_tests_where_its_processes_have_another_key():
+    own = "tests/engine/jit/test_cache.py"
+    shared = [path for path in SOURCES if suites.mode(path) is suites.Mode.SHARED]
+    assert names.module("engine/vector") in shared
+    for path in shared:
+        for part in (*suites.near(path), suites.whole(path)):
+            assert f"--deselect={own}" in part
+    for name in ("engine/cache", "engine/cache_size", "engine/locks"):
+        path = names.module(name)
+        assert any(own in part for part in suites.near(path))
+        assert not any(f"--deselect={own}" in part for part in suites.near(path))
+
+
 def test_a_mutant_finds_no_kernel_of_another(tmp_path):
     known = tmp_path / "known"
     known.mkdir()
