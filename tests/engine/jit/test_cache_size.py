@@ -64,6 +64,15 @@ def test_the_directory_is_looked_through_after_each_sixteenth_of_the_bound(tmp_p
     assert looked == [False, False, True, False, False, True, False, False]
 
 
+def test_one_byte_more_than_a_sixteenth_is_what_it_takes(tmp_path, put):
+    looked = []
+    for written in (1, 101, 100, 1, 101):
+        put("arm-old", 1, days=31)
+        cache_size.bound(tmp_path, written, MOST)
+        looked.append("arm-old" not in left(tmp_path))
+    assert looked == [True, True, False, True, True]
+
+
 def test_a_link_takes_no_more_room_than_itself(tmp_path, put):
     place = tmp_path / "place"
     place.mkdir()
