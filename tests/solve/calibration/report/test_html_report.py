@@ -9,6 +9,7 @@ import re
 import sys
 import warnings
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -348,6 +349,36 @@ def test_residuals_stand_under_their_names_in_mm_and_mrad(found, tables):
         ]
         for name, r in those
     ]
+
+
+class Sized(SimpleNamespace):
+    """A set of so many measurements."""
+
+    def __len__(self) -> int:
+        return self.size
+
+
+def test_each_point_of_a_set_has_the_mean_of_its_own_residuals():
+    few = {"sees_arm": True, "angular": 0}
+    sets = [
+        Sized(size=2, width=9, what="points", **few),  # three of each
+        Sized(size=5, width=1, what="lengths", sees_arm=False, angular=0),
+        Sized(size=3, width=3, what="one point", **few),
+    ]
+    # row by row the points of the first set 1, 2, 3, 1, 2, 3 mm and 1 more in its second measurement
+    x = [1, 2, 3, 2, 3, 4, 7, 8, 9]
+    e = 1e-3 * np.outer(x, [1.0, 10.0, 0.0])
+    residuals = SimpleNamespace(in_axes=lambda axes: SimpleNamespace(after=e))
+    evidence = SimpleNamespace(problem=SimpleNamespace(sets=sets))
+    page = "".join(html_report._by_point(residuals, evidence))  # pyright: ignore[reportArgumentType]
+    rows = re.findall(r"<tr>(.*?)</tr>", page, re.DOTALL)
+    cells = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in rows if "<td" in row]
+    means = {1: 1.5, 2: 2.5, 3: 3.5}
+    expected = [["0", "points", str(j), *milli(1e-3 * x, 1e-2 * x, 0.0)] for j, x in means.items()]
+    expected.append(["2", "one point", "1", *milli(8e-3, 8e-2, 0.0)])
+    assert [row[:6] for row in cells] == expected
+    sizes = [np.sqrt(101 * np.mean(np.square(own))) for own in ((1, 2), (2, 3), (3, 4), (7, 8, 9))]
+    assert [row[6:] for row in cells] == [milli(1e-3 * size) for size in sizes]
 
 
 def test_what_was_measured_and_what_it_can_tell_stands_there_in_numbers(found, tables, text):
