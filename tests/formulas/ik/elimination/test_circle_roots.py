@@ -156,6 +156,18 @@ def test_values_at_the_samples_tell_the_coefficients_and_what_is_beyond_them():
     assert circle_roots.size_and_noise(back)[1] >= 0.09
 
 
+@pytest.mark.parametrize("steepest", [0.25, 2.0])
+def test_a_step_is_the_last_where_half_of_f_s_second_derivative_leaves_little(steepest):
+    # |f''| <= 8 steepest, and 1e-17 is little
+    step = 1e-6
+    most = circle_roots.DEGREE * steepest * step**2 / 1e-17
+    for sign in (1, -1):
+        assert circle_roots.is_found(step, sign * 1.01 * most, steepest)
+        assert not circle_roots.is_found(-step, sign * 0.99 * most, steepest)
+    assert circle_roots.is_found(1e-15, 0.0, steepest)
+    assert not circle_roots.is_found(1.1e-15, 0.0, steepest)
+
+
 def test_coefficients_of_no_number_have_no_size_and_no_noise():
     # so a target that is not finite is told as one whose coefficients are all zero
     assert circle_roots.size_and_noise([math.nan] * circle_roots.COEFFICIENTS) == (0.0, 0.0)
