@@ -43,7 +43,7 @@ class ChainFrames(ChainData):
 
         Notes
         -----
-        Accuracy: screws within 13 u (reach + |p|) of Ad(P) A of unit length, u = 2^-53, p the
+        Accuracy: screws within 10 u (reach + |p|) of Ad(P) A of unit length, u = 2^-53, p the
         translation of P, whose rotation is one to rounding (tests/model/test_chain.py). Source:
         Park 1994, Section II, f' = P f Q.
 
