@@ -11,8 +11,8 @@ def angles(R: Array) -> Array:
 
     Yaw comes first, from the first column; roll and pitch then from Rz(yaw)^T R. Where pitch is
     ±pi/2 the first column says nothing about yaw, and roll is 0.
-    Accuracy: the rotation of the angles returned is R within 9e-16 in every entry (plus R's own
-    distance from a rotation), at pitch ±pi/2 as anywhere else.
+    Accuracy: the rotation of the angles returned is R within 8 u in every entry (plus R's own
+    distance from a rotation), u = 2^-53, at pitch ±pi/2 as anywhere else.
     Source: `formulas.lie.euler`, R = Rz(A) Ry(B) Rx(C) with A = yaw, C = roll.
     """
     return euler.angles(R, "zyx")[..., ::-1]

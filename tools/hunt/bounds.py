@@ -26,7 +26,7 @@ from poekin.testing.strategies.decoding import decoders
 from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from poekin.testing.strategies.group_strategies import pose
 from tests.engine.straight_line import test_interpret
-from tests.formats import dh_product, test_dh, test_urdf_text
+from tests.formats import dh_product, test_dh, test_rpy, test_urdf_text
 from tests.formats.relink import test_relinked
 from tests.model import test_chain, test_idealised, test_joint, test_robot, test_screw
 from tests.model.geometry import test_hp
@@ -122,6 +122,18 @@ def pairs(number: int) -> tuple[np.ndarray, np.ndarray]:
     return first, np.where(rng.random((ROWS, 1, 1)) < 0.5, some(), first @ turn)
 
 
+def three_turns(number: int) -> np.ndarray:
+    """Roll, ±1, π/2 less |pitch| and yaw (n, 4), from the lock on, half of them with roll and yaw of
+    more than 2, which are rounded to most.
+    """
+    rng = np.random.default_rng(number)
+    outer = rng.uniform(-np.pi, np.pi, (2, ROWS))
+    wide = np.copysign(rng.uniform(2, np.pi, (2, ROWS)), outer)
+    roll, yaw = np.where(rng.random(ROWS) < 0.5, outer, wide)
+    off = rng.uniform(-2, 2, ROWS) * 10.0 ** -rng.uniform(0, 18, ROWS)
+    return np.stack([roll, rng.choice([-1, 1], ROWS), off, yaw], axis=1)
+
+
 def parts(number: int, rows: int) -> tuple[np.ndarray, np.ndarray]:
     """A part of a path, and how much further it goes."""
     rng = np.random.default_rng(number)
@@ -193,6 +205,7 @@ def relinkings(case: tuple[Robot, pk.Chain], number: int) -> Iterator[tuple[Robo
 PAIRS = NUMBERS.map(pairs)
 FOUR = chain_strategies.chains(min_joints=1, max_joints=4)
 BOUNDS = {
+    "roll, pitch, yaw": Bound(st.tuples(NUMBERS.map(three_turns)), test_rpy.angles_off),
     "machine code": Bound(
         chain_strategies.chains(min_joints=1, max_joints=6).flatmap(with_frames),
         lambda chain, frame, n: test_compiled.apart(

@@ -6,14 +6,14 @@ Of a rotation, the first turn is read off a column of R, is taken out of R, and 
 off what is left: what rounding does to the first, the last makes good, also near the lock, where B
 is ±90° (zyx), 0 or 180° (zyz) and A and C turn about one axis. In the lock itself C = 0.
 Accuracy: the rotation of the turns found is R within 6 u in every entry (plus what R itself misses
-a rotation by), within 8 u in the lock, u = 2^-53 (tests/formulas/lie/test_euler.py).
+a rotation by), in the lock too, u = 2^-53 (tests/formulas/lie/test_euler.py).
 Source: the first two angles of an Euler triple fix the third; C = 0 is how controllers write the
 lock (KUKA C, Fanuc W).
 """
 
 from .. import elementary
 
-LOCK = 2.0**-50
+LOCK = 6 * 2.0**-53
 """Sine or cosine of B up to which A and C are one turn: what rounding leaves of 0 in R."""
 
 

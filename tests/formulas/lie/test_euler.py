@@ -14,7 +14,7 @@ import pytest
 from poekin.formulas.lie import euler
 
 UNIT = 2.0**-53
-DISTANCES = (0.0, 1e-18, 1e-15, 1e-12, 1e-9, 1e-7, 1e-5, 1e-2, 0.5)
+DISTANCES = (0.0, 1e-18, 6.6e-16, 1e-15, 1e-12, 1e-9, 1e-7, 1e-5, 1e-2, 0.5)
 ENDS = {"zyx": (-math.pi / 2, math.pi / 2), "zyz": (0.0, math.pi)}
 TURNS = {"zyx": euler.zyx_turns, "zyz": euler.zyz_turns}
 MAKE = {"zyx": euler.zyx, "zyz": euler.zyz}
@@ -56,14 +56,14 @@ def rotations(sequence, distance):
 def test_the_turns_of_a_rotation_are_that_rotation_at_any_distance_from_the_lock(
     sequence, distance
 ):
-    # Each entry is a sum of two products of numbers up to 1, of turns right to 2 u each; in the
-    # lock up to 2^-50 = 8 u is taken for 0.
+    # The turns are right to u cos(B), u sin(2B) and 2.5 u about axes of which the last is across to
+    # the others; in the lock up to 6 u is taken for 0.
     with mpmath.workdps(60):
         worst = max(
             error(sequence, R, TURNS[sequence](R.ravel().tolist()))
             for R in rotations(sequence, distance)
         )
-    assert worst <= (8 if distance <= 1e-15 else 6) * UNIT
+    assert worst <= 6 * UNIT
 
 
 @pytest.mark.parametrize("sequence", ENDS)
