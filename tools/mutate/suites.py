@@ -93,9 +93,13 @@ APART = (
     "groups/near::test_a_reference_that_is_no_number_gives_nan",
     "model/checks::test_what_is_no_pose_is_refused",
 )
-# Tests that begin processes: the cache's key of these holds the mutant, and that of the judging one
-# the text as it was, so that each finds nothing that the other has kept, whatever the mutant does.
-OF_PROCESSES = ("engine/cache",)
+# Tests that begin processes: the key of the source holds the mutant there, and in the judging one
+# the text as it was, so that each refuses what the other has kept, whatever the mutant does.
+OF_PROCESSES = (
+    "engine/cache",
+    "sweep/execution/pose_sweep::test_processes_and_runs_that_were_killed_give_the_same_bytes",
+    "sweep/execution/store::test_a_run_that_is_killed_again_and_again_goes_on_where_it_was",
+)
 
 
 def mode(path: str) -> Mode:
@@ -246,5 +250,7 @@ def _imports(path: str) -> Iterator[str]:
 
 
 def _apart(path: str) -> list[str]:
-    left_out = {Mode.INTERPRETED: APART, Mode.SHARED: OF_PROCESSES}.get(mode(path), ())
+    left_out = {Mode.INTERPRETED: (*APART, *OF_PROCESSES), Mode.SHARED: OF_PROCESSES}.get(
+        mode(path), ()
+    )
     return [names.argument(f"--deselect={test}") for test in left_out]
