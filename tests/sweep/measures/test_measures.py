@@ -91,6 +91,12 @@ CASES = {
         lambda c: error(c, bound=True),
         lambda c, q: effects(c, q, error(c), "position").sum(axis=1),
     ),
+    "bound of offsets": (  # two of them, of an arm of two joints
+        lambda c: PoseUncertainty.by_tolerances(c, offset=0.01, bound=True),
+        lambda c, q: effects(c, q, PoseUncertainty.by_tolerances(c, offset=0.01), "position").sum(
+            axis=1
+        ),
+    ),
 }
 
 

@@ -36,6 +36,18 @@ def test_a_measure_of_coordinates_is_its_formula_of_references_and_weights(kind,
     assert values.tolist() == [formula(column, numbers[:3], numbers[3:], 3) for column in q.T]
 
 
+@pytest.mark.parametrize("kind", [measures.SMALLEST, measures.INVERSE_CONDITION])
+@pytest.mark.parametrize("m", [2, 7])
+def test_a_jacobian_of_nothing_but_zeros_measures_zero_without_a_sign(kind, m):
+    said = (kind, 1, 6 * m, min(m, 6), max(m, 6))
+    values = np.full(measures.LANES, 77.0)
+    outputs = np.zeros((6 * m, measures.LANES))
+    W = measures.matrix_room(said)
+    measures.measure_lanes(said, np.ones(1), outputs, W, np.zeros(measures.LANES), values, 0)
+    assert values.tolist() == [0.0] * measures.LANES
+    assert not np.signbit(values).any()
+
+
 def test_a_kind_of_no_coordinates_measures_none():
     values = np.full(2, 77.0)
     for kind in (measures.NONE, *measures.OF_OUTPUTS):
