@@ -137,6 +137,12 @@ def test_a_square_has_at_most_1024_tiles_along_a_side():
         Cells.box([0] * 3, [1] * 3, 1.0, side=1025)
 
 
+def test_a_pose_in_no_cell_is_in_minus_one():
+    T = np.eye(4)
+    T[0, 3] = 1e9
+    assert int(ONE.find(T)) == -1
+
+
 def test_a_batch_of_poses_keeps_its_shape():
     assert ONE.find(np.tile(np.eye(4), (2, 3, 1, 1))).tolist() == [[0] * 3] * 2
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, ShapeError
-from poekin.sweep import Grid, Random
+from poekin.sweep import Cells, Grid, Random, Sobol, Sweep, run
 from tests.sweep.arms import slide, two_links
 
 MASK = 2**64 - 1
@@ -53,6 +53,23 @@ def test_samples_fill_their_range_evenly_and_independently():
     assert np.abs(off_diagonal).max() < 6 / np.sqrt(len(q))
     again = Random.of(chain, 10**6, seed=4).configurations(np.arange(40_000))
     assert abs(np.corrcoef(q[:, 0], again[:, 0])[0, 1]) < 6 / np.sqrt(len(q))
+
+
+@pytest.mark.parametrize(
+    "samples",
+    [
+        Grid.of(two_links(), [13, 17]),
+        Random.of(two_links(), 200, seed=2),
+        Sobol.of(two_links(), 200, seed=2),
+    ],
+    ids=lambda samples: type(samples).__name__,
+)
+def test_a_sweep_counts_the_configurations_that_its_samples_are(samples):
+    # cells of a size with which no grid lies on a border
+    cells = Cells.box([-0.9, -0.9, -0.9], [0.9, 0.9, 0.9], 0.37)
+    q = samples.configurations(np.arange(samples.count))
+    expected = np.bincount(cells.find(two_links().fk(q)), minlength=cells.count)
+    assert (run(Sweep(two_links(), samples, cells)).counts.reshape(-1) == expected).all()
 
 
 def test_a_grid_has_the_middles_of_equal_parts_the_last_coordinate_first():

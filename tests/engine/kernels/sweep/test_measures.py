@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from poekin.engine.kernels.sweep import measures
-from poekin.formulas.kinematics import joint_ranges
+from poekin.formulas.kinematics import joint_ranges, singular_values
+from tests.engine.kernels.branches.four_at_once import FOUR
 
 RNG = np.random.default_rng(0)
 
@@ -46,6 +48,24 @@ def test_a_jacobian_of_nothing_but_zeros_measures_zero_without_a_sign(kind, m):
     measures.measure_lanes(said, np.ones(1), outputs, W, np.zeros(measures.LANES), values, 0)
     assert values.tolist() == [0.0] * measures.LANES
     assert not np.signbit(values).any()
+
+
+@pytest.mark.parametrize("general", range(measures.LANES))
+def test_sweeps_go_on_until_each_of_four_matrices_is_orthogonal(general, monkeypatch):
+    monkeypatch.setattr(measures, "lanes", FOUR)
+    of_four = SimpleNamespace(sqrt=np.sqrt, where_less=lambda a, b, x, y: np.where(a < b, x, y))
+    monkeypatch.setattr(singular_values, "elementary", of_four)
+    J = np.zeros((measures.LANES, 6, 6))
+    J[:] = np.diag(np.arange(1.0, 7.0))
+    J[general] = RNG.normal(size=(6, 6))
+    outputs = np.moveaxis(J, 0, -1).reshape(36, measures.LANES)
+    said = (measures.SMALLEST, 1, 36, 6, 6)
+    values = np.full(measures.LANES, 77.0)
+    W = measures.matrix_room(said)
+    measures.measure_lanes(said, np.ones(1), outputs, W, np.empty(measures.LANES), values, 0)
+    expected = np.linalg.svd(J, compute_uv=False)
+    # both within 64 u of the largest
+    assert np.abs(values - expected[:, -1]).max() <= 128 * 2.0**-53 * expected.max()
 
 
 def test_a_kind_of_no_coordinates_measures_none():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -62,6 +63,32 @@ def test_the_number_of_solutions_is_a_measure_and_poses_without_any_have_none():
     rated(0, np.zeros((6, 1)), [2, 0, 4], 1, measure, np.empty(0), *NO_PAIRS, values, chosen)
     np.testing.assert_array_equal(values, [2.0, math.nan, 4.0])
     assert chosen.tolist() == [0, -1, 2]
+
+
+@pytest.mark.parametrize("spheres", [0, 1, 3])
+@pytest.mark.parametrize("outputs", [1, 2])
+def test_code_of_an_arm_has_room_for_its_outputs_and_the_centres_of_its_spheres(
+    outputs, spheres, monkeypatch
+):
+    rooms = []
+
+    def run_columns(arm, sines, cosines, k, q, R_p, every):
+        rooms.append(every.shape)
+        every[:] = 4.0
+
+    monkeypatch.setattr(pose_kernel, "run_columns", run_columns)
+    monkeypatch.setattr(pose_kernel, "sines_of_block", lambda *words: None)
+    monkeypatch.setattr(pose_kernel, "sines_room", lambda arm: 1)
+    values = np.empty(5)
+    measure = np.array([measures.ROOT, 1, outputs, 1, 6])
+    masked = np.zeros(5, np.bool_)
+    no_pairs = np.empty(0, np.int64)
+    pose_kernel._measure_outputs(
+        0, np.zeros((5, 1)), measure, np.empty(0), no_pairs, np.ones(spheres), values, masked
+    )
+    assert rooms == [(outputs + 3 * spheres, measures.LANES)] * 2
+    assert values.tolist() == [2.0 * outputs] * 5
+    assert not masked.any()
 
 
 def places(*x):
