@@ -48,6 +48,12 @@ def test_a_unit_vector_longer_by_a_rounding_is_in_the_pole_s_tile(n):
         assert tiles.tile(1e-9, 1e-9, z, n) == tiles.tile(1e-9, 1e-9, math.copysign(1, z), n)
 
 
+@pytest.mark.parametrize("n", [1, 2, 5])
+@pytest.mark.parametrize("z", [0.8, -0.8])
+def test_on_a_cap_a_rounding_below_a_whole_turn_is_in_the_tile_before_it(n, z):
+    assert tiles.tile(0.6, -1e-18, z, n) == tiles.tile(0.6, -1e-9, z, n)
+
+
 SIDE = 0.25
 CELLS = (2, 3, 4, 5)  # tiles along a side, and cubes
 PLACE = (-1.0, 0.5, 2.0, 1 / SIDE)
