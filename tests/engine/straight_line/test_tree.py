@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import FrozenInstanceError
 
 import numpy as np
+import pytest
 
 from poekin.algebra import IDENTITY
 from poekin.engine.straight_line.interpret import evaluate
@@ -21,6 +23,12 @@ UP = (*IDENTITY[:11], 0.5)
 def tilted(seed: int) -> tuple[float, ...]:
     T = se3.exp(np.random.default_rng(seed).normal(size=6))
     return (*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist())
+
+
+def test_a_tree_stays_as_it_was_made():
+    tree = TracedTree([], [], [], [], [])
+    with pytest.raises(FrozenInstanceError):
+        tree.parents = [0]  # type: ignore[misc]
 
 
 def test_poses_are_the_formulas_on_numbers():
