@@ -13,8 +13,8 @@ lock (KUKA C, Fanuc W).
 
 from .. import elementary
 
-LOCK = 6 * 2.0**-53
-"""Sine or cosine of B up to which A and C are one turn: what rounding leaves of 0 in R."""
+LOCK = 6.6e-16
+"""Sine or cosine of B up to which A and C are one turn, 6 u: what rounding leaves of 0 in R."""
 
 
 def zyx(sa, ca, sb, cb, sc, cc):

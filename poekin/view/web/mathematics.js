@@ -5,7 +5,7 @@
 // then three of the velocity of the tool's origin, in the axes of the base. rad and m.
 // Accuracy: that of the tests, tests/view/web/test_mathematics.py. u = 2^-53.
 
-const LOCK = 6 * 2 ** -53; // sine or cosine of pitch up to which roll and yaw are one turn
+const LOCK = 6.6e-16; // sine or cosine of pitch up to which roll and yaw are one turn
 const PARTS = { pose: [0, 6], rotation: [0, 3], translation: [3, 6] }; // rows of J
 
 export function product(A, B) {

@@ -14,7 +14,7 @@ import pytest
 from poekin.formulas.lie import euler
 
 UNIT = 2.0**-53
-DISTANCES = (0.0, 1e-18, 6.6e-16, 1e-15, 1e-12, 1e-9, 1e-7, 1e-5, 1e-2, 0.5)
+DISTANCES = (0.0, 1e-18, 6.5e-16, 1e-15, 1e-12, 1e-9, 1e-7, 1e-5, 1e-2, 0.5)
 ENDS = {"zyx": (-math.pi / 2, math.pi / 2), "zyz": (0.0, math.pi)}
 TURNS = {"zyx": euler.zyx_turns, "zyz": euler.zyz_turns}
 MAKE = {"zyx": euler.zyx, "zyz": euler.zyz}
