@@ -18,9 +18,9 @@ from poekin.formats import rpy
 from poekin.testing.strategies.group_strategies import rotations
 
 BAR = 8 * 2.0**-53
-"""As `rpy.angles` has it: the turns are right to u cos(B), u sin(2B) and 2.5 u, and as angles of up
-to half a turn are rounded to 2 u, u and 2 u, together 6.6 u; in the lock, 6 u that are taken for 0
-and what π/2 is rounded by. arctan2 has the rest.
+"""As `rpy.angles` has it, 8 u: yaw, pitch and roll are off by u cos(pitch), u sin(2 pitch) and 2.5 u,
+and arctan2 rounds them to 2 u, u and 2 u, together 6.6 u; in the lock 6 u are taken for 0 and π/2 is
+rounded, 6.6 u too. The rest is for an arctan2 that is not rounded right.
 """
 EYE = np.eye(3)
 
@@ -79,7 +79,8 @@ def angles_off(turns: np.ndarray) -> np.ndarray:
     for roll, sign, off, yaw in turns.tolist():
         with mpmath.workdps(50):
             R = rounded(exact(roll, sign * (mpmath.pi / 2 - off), yaw))
-        found += [error(one) / (BAR + defect(one)) for one in (R, worn(R))]
+        turned = worn(R)
+        found += [error(R) / BAR, error(turned) / (BAR + defect(turned))]
     return np.array(found)
 
 
@@ -152,7 +153,7 @@ def test_the_nearest_angles_are_the_same_turn_and_no_others_are_nearer(turns, da
     found = rpy.nearest_angles(R, near)
     # the angles' own rotation is R within BAR; to three of them are added up to four whole turns,
     # each wrong by 2.5e-16, in two roundings of numbers below 32
-    bound = BAR + defect(R) + 3 * (4 * 2.5e-16 + 2 * 2.0**-49)
+    bound = BAR + 3 * (4 * 2.5e-16 + 2 * 2.0**-49)
     assert np.abs(rpy.pose((0, 0, 0), found)[:3, :3] - R).max() <= bound
     assert math.dist(found, near) <= _nearest(R, near) + 1e-12
 

@@ -56,8 +56,8 @@ def rotations(sequence, distance):
 def test_the_turns_of_a_rotation_are_that_rotation_at_any_distance_from_the_lock(
     sequence, distance
 ):
-    # The turns are right to u cos(B), u sin(2B) and 2.5 u about axes of which the last is across to
-    # the others; in the lock up to 6 u is taken for 0.
+    # zyx: the turns are off by u cos(B), u sin(2B) and 2.5 u, about axes across to each other; zyz
+    # alike. In the lock up to 6 u is taken for 0.
     with mpmath.workdps(60):
         worst = max(
             error(sequence, R, TURNS[sequence](R.ravel().tolist()))
