@@ -1,6 +1,7 @@
 """HTML pages of the notebooks that need no network: `jupyter nbconvert --config pages.py --to html *.ipynb` makes them.
 
 nbconvert loads MathJax from a server to draw formulas; here they become MathML, which browsers draw by themselves.
+Needs docutils; where it is missing nbconvert prints that, and goes on without this file.
 """
 
 import re
