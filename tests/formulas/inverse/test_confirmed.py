@@ -81,6 +81,34 @@ def test_a_half_turn_away_is_no_solution():
     assert confirmed.size(e, 1.0) > 1.0
 
 
+@pytest.mark.parametrize(("cosine", "sine"), [(0.0, 1.0), (-0.6, 0.8), (-1.0, 0.0)])
+def test_of_a_quarter_turn_and_more_the_tip_is_very_far(cosine, sine):
+    T, target = np.eye(4), np.eye(4)
+    target[:2, :2] = [[cosine, -sine], [sine, cosine]]
+    assert confirmed.size(confirmed.pose_error(T, target), 1.0) > 1e300
+    target[:2, :2] = [[0.6, -0.8], [0.8, 0.6]]
+    assert confirmed.pose_error(T, target) == (0.0, 0.0, 0.8, 0.0, 0.0, 0.0)
+
+
+def test_no_coordinate_goes_farther_than_a_fifth_in_a_step():
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    at, found = [], np.empty((1, 6))
+
+    def asked(x, T, J):
+        at.append(x.copy())
+        forward(x, T, J)
+
+    def given(branch, T):
+        T[:] = np.eye(4)
+
+    rows = np.array([branch(q + [0.5, 0.0, 0.0, 0.0, 0.0, 0.0])])
+    work = np.empty((14, 6))
+    confirmed.select(asked, given, ARM.fk(q), rows, SIZES, np.empty((4, 4)), work, found)
+    # half a radian away the first step is one that is shortened
+    assert np.abs(at[1] - at[0]).max() == pytest.approx(0.2, rel=1e-14)
+    assert np.abs(np.diff(at, axis=0)).max() <= 0.2 * (1 + 1e-14)
+
+
 @pytest.mark.parametrize("spoil", [1.01, -1.0, np.nan, 0.0])
 def test_of_what_is_no_pose_there_is_no_solution(spoil):
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])

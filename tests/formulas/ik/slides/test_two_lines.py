@@ -95,3 +95,13 @@ def test_of_one_square_alone_both_roots_solve_both_equations(squares):
 def test_slides_that_lie_alike_are_told_whichever_way_they_point(side):
     one, _ = two_lines.roots((side, 0.0, side, 0.0, 1.0), (side, 0.5, 0.0, -0.5, 1.0))
     assert (one[0], one[2]) == pytest.approx((0.75 * side, 0.25 * side), abs=4 * U)
+
+
+@pytest.mark.parametrize("d", [-3.0, -2.0, -0.5, 3.0])
+def test_slides_that_lie_alike_are_told_on_either_side_of_where_they_are_parallel(d):
+    # t = d - w, and t + t^2 / 2 - w^2 / 2 = 1 is (1 + d) w = d + d^2 / 2 - 1
+    one, none = two_lines.roots((1.0, 0.0, 1.0, 0.0, d), (1.0, 0.5, 0.0, -0.5, 1.0))
+    w = (d + d * d / 2 - 1) / (1 + d)
+    assert (one[0], one[2]) == pytest.approx((d - w, w), abs=16 * U)
+    assert one[4] > 0
+    assert none[4] == -two_lines.NO_ROW
