@@ -347,6 +347,8 @@ def test_six_numbers_that_are_no_screw_are_refused(screw, message):
             ShapeError,
             r"^velocity_limits: expected shape \(3,\), one of each coordinate, got \(2,\)$",
         ),
+        ({"velocity_limits": [1, 2, 3, 4]}, ShapeError, r"expected shape \(3,\).*got \(4,\)"),
+        ({"velocity_limits": np.ones((3, 1))}, ShapeError, r"expected shape \(3,\).*got \(3, 1\)"),
         (
             {"velocity_limits": [1, 0, 2]},
             InputError,

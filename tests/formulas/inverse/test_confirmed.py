@@ -54,6 +54,7 @@ def test_a_branch_far_outside_or_of_no_number_is_passed_over():
     T = ARM.fk(q)
     assert len(selected(T, np.array([branch(q, -0.5), branch(q, np.nan)]))) == 0
     assert len(selected(T, np.array([branch(q, -1e-3)]))) == 1
+    assert len(selected(T, np.array([branch(q, -0.5), branch(q)]))) == 1
 
 
 @pytest.mark.parametrize("more", [0, 1])
@@ -126,7 +127,7 @@ def test_a_branch_whose_own_pose_is_the_target_is_taken_as_it_is():
         forward(x, T, J)
 
     # what its pose is said to be decides: of another one Newton's rule is asked
-    for poses, calls in ((ARM.fk(q), 0), (ARM.fk(q + 1e-5), 1)):
+    for poses, calls in ((ARM.fk(q), 0), (ARM.fk(q + 1e-5), 1), (ARM.fk(q + 1e-10), 1)):
         at.clear()
         count = confirmed.select(
             asked, lambda _, T, poses=poses: T.__setitem__(slice(None), poses), ARM.fk(q),

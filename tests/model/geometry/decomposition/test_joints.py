@@ -45,6 +45,15 @@ def test_axes_that_pass_each_other_do_not_meet_within_less(off):
     assert module.meeting_point(axes, Tolerance(1e-13, off)) is not None
 
 
+def test_axes_meet_where_each_is_as_near_as_is_asked():
+    axes = through(np.zeros(3), *[[0, 0, 1], [1, 0, 0]] * 2)
+    for k in (1, 3):
+        axes[k] = axes[k]._replace(point=np.array([0.0, 2.0, 0.0]))
+    # each passes 1 m from the point between them, two of a kind together sqrt(2) m
+    for within, meet in ((1.2, True), (0.9, False)):
+        assert (module.meeting_point(axes, Tolerance(1e-13, within)) is not None) is meet
+
+
 def test_axes_that_meet_exactly_do_so_within_nothing():
     axes = through(np.zeros(3), [0, 0, 1], [1, 0, 0])
     assert module.meeting_point(axes, Tolerance(0.0, 0.0)) is not None
