@@ -143,6 +143,20 @@ def test_a_pose_is_judged_in_every_column_and_lengths_by_the_reach(column, chain
     assert chain_errors(Off(chain, "", ""), oracle, q).pose == pytest.approx(expected, rel=1e-9)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("row", range(6))
+@pytest.mark.parametrize("frame", ["space", "body", "hybrid"])
+def test_a_jacobian_is_judged_in_every_row_and_linear_ones_by_the_reach(row, frame, chain, oracle, q):
+    class Off(_Wrong):
+        def jacobian(self, q, named):
+            J = self._chain.jacobian(q, named)
+            J[:, row] += 1e-3 * (named == frame)
+            return J
+
+    expected = 1e-3 / (chain.reach if row >= 3 else 1)
+    found = chain_errors(Off(chain, "", ""), oracle, q)  # type: ignore[arg-type]
+    assert getattr(found, frame) == pytest.approx(expected, rel=1e-9)
+
+
 @pytest.mark.parametrize("base", ["root", "a", "b"])
 def test_one_bad_configuration_among_good_ones_is_found_and_named(base, oracle, q):
     class Sick(_Wrong):

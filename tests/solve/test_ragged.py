@@ -62,8 +62,9 @@ def test_nothing_is_made_before_it_is_asked_for():
     assert (len(lazy), repr(lazy), asked) == (5, "<LazySequence of 5>", [])
     assert (lazy[np.int64(-2)], asked) == ("item 3", [3])
     assert lazy[3:] == ["item 3", "item 4"]
-    with pytest.raises(IndexError, match="index 5 is out of bounds for 5 targets"):
-        lazy[5]
+    for outside in (5, 6, 1000, -6):
+        with pytest.raises(IndexError, match=f"index {outside} is out of bounds for 5 targets"):
+            lazy[outside]
     wrong: Any = 1.0
     with pytest.raises(TypeError):
         lazy[wrong]

@@ -188,6 +188,15 @@ def test_axes_before_have_their_angles_to_those_behind_and_the_nearest_with_plac
     )
 
 
+def test_the_distance_to_an_axis_behind_two_slides_along_it_is_its_own():
+    slides = [screw.prismatic(Z)] * 2
+    ours = at([revolving(X), revolving(Y, [0.2, 0, 0]), *slides, revolving(Z, [1, 2, 0])])
+    relations = _relations(ours, [0], [2, 3, 4], dict(enumerate(ours.axes)))
+    assert [relation.place for relation in relations] == [0, 1, 2, 2]
+    miss = _misfit(ours, [1], [2, 3, 4], relations, np.zeros((1, 1)))[0]
+    assert miss == pytest.approx(np.zeros((1, 4)), abs=1e-14)
+
+
 def positions(chain, run, gone, held, tol=TOL):
     short = unmatched_joints.without(chain, gone, held)
     return held_positions(chain, short, run, gone, tol)

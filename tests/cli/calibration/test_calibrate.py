@@ -537,6 +537,8 @@ def test_outliers_beyond_the_first_are_counted():
         for first, file in enumerate(("a", "b"))
     }
     assert command._locations(sources) == f"a.csv:{here['a']}; b.csv:{here['b']} and 2 more"
+    assert command._locations(sources[:-1]).endswith(" and 1 more")
+    assert command._locations(sources[:-2]) == f"a.csv:{here['a']}; b.csv:{here['b']}"
     assert command._locations(sources[:1]) == "a.csv:0"
     assert command._locations(["a.csv:1"] * (2 * MOST_OUTLIERS + 1)).endswith(
         f" and {MOST_OUTLIERS + 1} more"

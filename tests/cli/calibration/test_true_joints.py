@@ -131,8 +131,10 @@ def test_other_languages_and_no_terms_are_told_or_as_before(poekin, file, tmp_pa
 def test_another_branch_and_a_term_of_the_user_s_own_are_refused(refused, file, tmp_path):
     with pytest.warns(PoekinWarning, match=chain_toml.TERMS):
         link = pk.load(file).links[3]
-    words = ("emit", file, "--lang", "c", "--tip", link, "--output", tmp_path / "c")
-    assert "the calibration's terms are of 'joint1', 'joint2'" in refused(*words).replace("\n", " ")
+    for end in ("--tip", "--base"):
+        words = ("emit", file, "--lang", "c", end, link, "--output", tmp_path / "c")
+        said = refused(*words).replace("\n", " ")
+        assert "the calibration's terms are of 'joint1', 'joint2'" in said
     own = Term("ripple", (Parameter("a", "sin", "rad"),), lambda q, c: np.sin(q)[..., None])
     found(own).save(tmp_path / "own.toml")
     words = ("emit", tmp_path / "own.toml", "--lang", "c", "--output", tmp_path / "c")

@@ -123,6 +123,8 @@ def test_a_joint_has_the_limits_of_the_coordinate_that_it_follows():
     both = Chain.from_space(
         CHAIN.screws, np.eye(4), coupling=[[1, 1], [0, 0]], offset=[0, 0.5], limits=limits
     )
+    named = both.replace(coupling=np.ones((2, 2)), joint_names=["q1", "q2"])
+    assert [row[-2:] for row in _screw_rows(named)] == [("-1", "2"), ("-3", "4")]
     rows = list(_screw_rows(both))
     assert [(row[2], row[-2:]) for row in rows] == [("q1 + q2", ("-1", "2")), ("0.5", ("0", "0"))]
     assert {len(row) for row in rows} == {11}

@@ -144,6 +144,10 @@ def test_arms_of_the_catalogue_have_a_closed_form(name, family):
     check(chain, found, 1, 2000)
 
 
+def test_an_arm_without_joints_has_none():
+    assert closed_form(pk.Chain.from_space(np.zeros((0, 6)), np.eye(4))) is None
+
+
 def test_an_arm_of_six_joints_without_three_such_axes_has_none():
     assert closed_form(pk.load("jaco").chain()) is None
     rng = np.random.default_rng(0)

@@ -11,6 +11,7 @@ from poekin.solve.ik_structure.result import (
     IKStructure,
     LockedStructure,
     axes_of,
+    mm,
 )
 
 
@@ -25,6 +26,7 @@ def test_axes_are_numbered_in_words(joints, words):
 def test_an_assumption_says_its_size_in_mm_or_degrees():
     meet = Assumption((4, 5, 6), "meet in a point", 0.0, 1.25e-3)
     assert str(meet) == "axes 4, 5 and 6 meet in a point within 1.25 mm"
+    assert mm(0.0999) == "99.9 mm"
     parallel = Assumption((2, 3, 4), "are parallel", 0.01, 0.0)
     assert str(parallel) == "axes 2, 3 and 4 are parallel within 0.573°"
 

@@ -75,6 +75,14 @@ def test_a_fit_takes_the_base_and_the_free_zero_offsets_to_where_the_used_axes_a
     assert fitted.z == pytest.approx(np.zeros((3, 5)), abs=1e-9)
 
 
+def test_axes_of_two_kinds_are_fitted_to_no_place():
+    pair, at, _, _ = near(2, 3)
+    unlike = replace(pair, alike=np.arange(5) != 3)
+    fitted = fit(unlike, Alignments(at.P, 0.0 * at.z), False, True)
+    # the one axis that was shifted is not told apart: the others agree
+    assert unlike.deviations(fitted)[:, unlike.alike].max() < 1e-6
+
+
 def test_a_step_lessens_residuals_held_back_by_each_coordinate_s_own_size():
     rng = np.random.default_rng(0)
     r, J, damping = (

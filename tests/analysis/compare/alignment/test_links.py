@@ -45,6 +45,17 @@ def test_the_last_axes_and_the_tool_that_moved_together_are_behind_one_link(k):
     assert np.flatnonzero(reading.beside_link).tolist() == [1]
 
 
+def test_a_slide_behind_a_link_may_seem_unmoved():
+    chain = dh.to_chain(dh.published("stanford"))
+    assert chain.kinds[2] == "prismatic"
+    turned = LINK @ se3.exp([0.01, 0.02, 0.01, 0, 0, 0])
+    for T, moved in ((LINK, False), (turned, True)):
+        pair, reading = as_it_stands(chain, longer(chain, 2, T))
+        assert reading.moved[2] == moved
+        (reading,) = with_link(pair, [reading])
+        assert reading.link == 2
+
+
 def test_axes_that_moved_without_the_tool_or_apart_are_behind_no_link():
     chain = arm("panda")
     other = longer(chain, 5)

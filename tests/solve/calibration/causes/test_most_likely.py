@@ -121,7 +121,7 @@ def test_readings_some_rows_off_are_named_by_how_many(by):
     (Size(2.0, 0.3), 0.8), (Size(2.0), 0.5), (Size(0.0, 0.0), 1e-12),
 ])  # fmt: skip
 def test_an_error_is_taken_together_in_rad_and_reaches(size, together):
-    assert causes._together(size, 4.0) == pytest.approx(together)
+    assert causes._together(size, 4.0) == pytest.approx(together, rel=1e-12, abs=0.0)
 
 
 @pytest.mark.parametrize(("ratio", "named"), [(0.99 / 4.5, True), (1.01 / 4.5, False)])

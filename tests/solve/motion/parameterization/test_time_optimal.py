@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import itertools
 import re
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from scipy.interpolate import CubicHermiteSpline, CubicSpline
 import poekin as pk
 from poekin.errors import InputError, ShapeError, UnknownName
 from poekin.solve import motion
+from poekin.solve.motion.parameterization import time_optimal
 from poekin.solve.motion.parameterization.time_optimal import LARGEST
 from tests.solve.motion.dense_optimum import shortest_time
 
@@ -134,6 +137,34 @@ def test_the_way_back_takes_as_long_and_a_faster_clock_divides_the_time(arm):
     assert back == pytest.approx(once, rel=5e-3)  # limits at the other ends of the steps
     slow = motion.time_optimal(arm, q, speed=0.1 * SPEED, acceleration=0.01 * ACCELERATION)
     assert slow.duration == pytest.approx(10 * once, rel=1e-6)  # rounding to nanoseconds
+
+
+@pytest.mark.parametrize("count", [2, 50, 400])
+def test_a_grid_has_the_knots_and_a_thousand_points_evenly_between_them(count):
+    lengths = np.random.default_rng(count).uniform(0.1, 1, count - 1)
+    knots = np.append(0.0, np.cumsum(lengths))
+    s = time_optimal._grid(knots)
+    assert np.isin(knots, s).all()
+    assert np.diff(s).max() <= knots[-1] / time_optimal.STEPS * (1 + 1e-12)
+    assert len(s) <= time_optimal.STEPS + count
+
+
+def test_what_exceeds_a_limit_by_one_rounding_is_slowed_down(monkeypatch):
+    tried = []
+
+    def excess(motion, limits):
+        tried.append(motion.times[-1])
+        assert len(tried) < 5
+        return np.array([np.nextafter(1.0, 2.0) if tried[-1] <= 1.0 else 1.0])
+
+    even = np.array([0.0, 0.5, 1.0])
+    monkeypatch.setattr(time_optimal, "_fastest", lambda spline, limits: (even, np.ones(3)))
+    monkeypatch.setattr(
+        time_optimal, "_timed", lambda spline, s, times, rate: SimpleNamespace(times=times)
+    )
+    monkeypatch.setattr(time_optimal, "_excess", excess)
+    nothing: Any = None
+    assert time_optimal._within_limits(nothing, nothing).times[-1] == pytest.approx(1, abs=1e-11)
 
 
 def test_points_that_repeat_change_nothing(arm):
