@@ -145,7 +145,9 @@ def test_a_pose_is_judged_in_every_column_and_lengths_by_the_reach(column, chain
 
 @pytest.mark.parametrize("row", range(6))
 @pytest.mark.parametrize("frame", ["space", "body", "hybrid"])
-def test_a_jacobian_is_judged_in_every_row_and_linear_ones_by_the_reach(row, frame, chain, oracle, q):
+def test_a_jacobian_is_judged_in_every_row_and_linear_ones_by_the_reach(
+    row, frame, chain, oracle, q
+):
     class Off(_Wrong):
         def jacobian(self, q, named):
             J = self._chain.jacobian(q, named)

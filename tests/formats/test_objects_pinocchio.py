@@ -221,6 +221,24 @@ def test_a_model_built_from_a_urdf_is_the_robot_of_that_urdf(name):
     assert error(model, robot, x) <= ROUNDING
 
 
+@pytest.mark.parametrize("name", ["j0", "other"])
+@pytest.mark.parametrize("kind", ["JOINT", "BODY", "OP_FRAME"])
+def test_a_joint_s_own_frame_is_one_of_its_name_and_of_the_type_joint(name, kind):
+    pin = pinocchio()
+    model = pin.Model()
+    joint = model.addJoint(0, pin.JointModelRZ(), pin.SE3.Random(), "j0")
+    frame = pin.Frame(name, joint, 0, pin.SE3.Identity(), getattr(pin.FrameType, kind))
+    model.addFrame(frame)
+    robot = from_object(model)
+    if (name, kind) == ("j0", "JOINT"):
+        assert robot.links == ("universe", "j0")
+        return
+    # a link of its own, fixed to the one that the joint moves
+    beside = robot.joints[-1]
+    assert (beside.kind, beside.child) == ("fixed", name)
+    assert robot.joint("j0").child == beside.parent == ("j0_" if name == "j0" else "j0")
+
+
 MIMIC = """<robot name="r"><link name="l0"/><link name="l1"/><link name="l2"/><link name="l3"/><link name="l4"/>
 <joint name="a" type="revolute"><parent link="l0"/><child link="l1"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/>
   <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>

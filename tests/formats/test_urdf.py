@@ -171,14 +171,14 @@ def test_an_axis_that_is_not_unit_is_normalised_with_one_warning():
     joints = "\n".join(
         f'<joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/>'
         f'<axis xyz="0 {length} 0"/></joint>'
-        for i, length in enumerate([1, 1.001, 3, 1])
+        for i, length in enumerate([1, 1.001, 3, 0.1])
     )
     text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(5)) + joints + "</robot>"
     with pytest.warns(
         PoekinWarning,
         match=(
-            r"^f:3: the axis of joint 'j2' has length 3 and was normalised \(the worst of 2; the "
-            r"others on line 2\)$"
+            r"^f:3: the axis of joint 'j2' has length 3 and was normalised \(the worst of 3; the "
+            r"others on line 2, 4\)$"
         ),
     ) as w:
         robot = urdf.read_text(text, "f")

@@ -11,7 +11,7 @@ import pytest
 
 import poekin as pk
 from poekin.errors import PoekinWarning
-from poekin.formats import chain_toml
+from poekin.formats import chain_toml, dh
 from poekin.solve.calibration import Parameter, Term, calibrate
 from poekin.solve.calibration.model.parameters import KINDS
 from tests.formats.emitted import module
@@ -126,6 +126,9 @@ def test_other_languages_and_no_terms_are_told_or_as_before(poekin, file, tmp_pa
     words = ("emit", tmp_path / "plain.toml", "--lang", "python", "--output", tmp_path / "b.py")
     assert poekin(*words)[::2] == (0, "")
     assert "true_joints" not in (tmp_path / "b.py").read_text(encoding="ascii")
+    dh.write(dh.published("ur5"), tmp_path / "table.toml")
+    words = ("emit", tmp_path / "table.toml", "--lang", "python", "--output", tmp_path / "c.py")
+    assert poekin(*words)[::2] == (0, "")
 
 
 def test_another_branch_and_a_term_of_the_user_s_own_are_refused(refused, file, tmp_path):

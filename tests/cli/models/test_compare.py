@@ -35,6 +35,7 @@ def test_the_same_model_is_equal(tmp_path, poekin):
     assert (code, err) == (0, "")
     assert out.endswith("The models are the same\n")
     assert "two[b]" in out
+    assert poekin("compare", a, a, "--samples", 1)[0] == 0
 
 
 def test_what_is_not_asked_for_is_compared_as_the_library_does():

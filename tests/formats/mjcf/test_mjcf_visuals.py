@@ -101,6 +101,7 @@ def test_a_geom_has_its_own_colour_then_its_material_s(geom, color):
 
 
 BALL = '<geom size="1"/>'
+NO_MESH = "mesh 'p' has neither a file nor vertices with faces"
 SEEN = '<geom size="2" contype="0" conaffinity="0"/>'
 
 
@@ -112,6 +113,8 @@ SEEN = '<geom size="2" contype="0" conaffinity="0"/>'
         ('<geom size="3" group="3"/>' + BALL, [1]),
         ('<geom size="3" group="1"/>' + SEEN, [2]),
         (BALL + SEEN, [1, 2]),
+        ('<geom size="3" group="1" contype="1" conaffinity="0"/>' + SEEN, [2]),
+        ('<geom size="3" group="1" contype="0" conaffinity="1"/>' + SEEN, [2]),
         ('<geom size="3" rgba="1 1 1 0"/>' + BALL, [1]),
     ],
 )
@@ -125,7 +128,9 @@ def test_what_mujoco_s_viewer_hides_or_contacts_alone_need_is_not_drawn(geoms, d
         ('<geom type="plane" size="1 1 1"/>', "", "geoms of the type plane are not drawn"),
         ('<geom type="capsule" mesh="plain"/>', ASSETS, "a shape that is fitted to a mesh"),
         ('<geom type="mesh" mesh="p"/>', '<mesh name="p" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/>',
-         "mesh 'p' has neither a file nor vertices with faces"),
+         NO_MESH),
+        ('<geom type="mesh" mesh="p"/>', '<mesh name="p" vertex="0 0 0 1" face="0 1 2"/>', NO_MESH),
+        ('<geom type="mesh" mesh="p"/>', '<mesh name="p" vertex="0 0 0 1 0 0" face="0 1"/>', NO_MESH),
     ],
 )  # fmt: skip
 def test_what_cannot_be_drawn_is_left_out_with_its_line(geom, asset, why):

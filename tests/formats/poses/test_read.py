@@ -229,6 +229,8 @@ REFUSED = {
     "no text": (lambda: UNTYPED.read(5, "abc"), InputError, "source: expected a path or a text, got 5"),
     "no file": (lambda: pk.poses.read("poses.csv", "abc"), InputError,
                 "text: expected poses or the name of a file that is there, got 'poses.csv'"),
+    "a long name of no file": (lambda: pk.poses.read("p" * 59 + "xyz", "abc"), InputError,
+                "text: expected poses or the name of a file that is there, got '" + "p" * 59 + "x'"),
     "no such path": (lambda: pk.poses.read(__import__("pathlib").Path("poses.csv"), "abc"), FileError,
                      "cannot read poses.csv: No such file or directory"),
     "two in a line": (lambda: pk.poses.read("p[1,2,3,0,0,0] p[1,2,3,0,0,0]", "ur"), InputError,

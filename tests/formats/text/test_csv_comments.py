@@ -19,6 +19,7 @@ from poekin.formats.text.csv_dialect import with_header
         ("## a,b\n1,2\n# end\n", "a,b\n1,2\n# end\n"),
         ("# x\nq,1\n", "\nq,1\n"),
         ("#,a\n1,2\n", "#,a\n1,2\n"),
+        ("# joint#1,joint#2\n1,2\n", "joint#1,joint#2\n1,2\n"),
         ("# ;a\n1;2\n", "# ;a\n1;2\n"),
         ("\n1,2\n", "\n1,2\n"),
         ("# a\n\n", "# a\n\n"),

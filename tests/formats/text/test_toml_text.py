@@ -116,7 +116,7 @@ def test_a_whole_number_that_is_too_large_for_a_float_is_infinite():
 
 @pytest.mark.parametrize("number", [2**53 + 2, 2**60, -1, -(2**60), 0.5, -0.5])
 def test_each_number_of_a_list_is_a_whole_one_from_0_on(number):
-    for row in ([number, 1], [1, number]):
+    for row in ([number, 1], [1, number], [number, -7]):
         with pytest.raises(ModelError) as caught:
             toml_text.Keys({"n": row}, "f").wholes("n", (2,))
         assert str(caught.value) == f"f: n: expected whole numbers from 0 on, got {number:g}"

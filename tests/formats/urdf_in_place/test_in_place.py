@@ -275,11 +275,13 @@ def test_the_axis_of_any_joint_that_has_one_is_written(kind):
     assert new == text.replace('<axis xyz="0 0 1"/>', '<axis xyz="0 0.6 0.8"/>')
 
 
-def test_a_tool_link_comes_behind_all_else_as_the_file_is_indented():
-    robot = read(ARM)
+@pytest.mark.parametrize("first", ["  ", "        "])
+def test_a_tool_link_comes_behind_all_else_as_the_last_joint_is_indented(first):
+    given = ARM.replace('  <joint name="turn"', f'{first}<joint name="turn"')
+    robot = read(given)
     chain = robot.chain(tip="two").retooled(pk.se3.pose(pk.so3.exp([0, 0, 0.5]), [0.25, 0, 0]))
     with pytest.warns(PoekinWarning, match="'two_tool'"):
-        text = pk.to_urdf(chain, into=ARM.encode()).decode()
+        text = pk.to_urdf(chain, into=given.encode()).decode()
     more = """
   <link name="two_tool"/>
   <joint name="two_tool_joint" type="fixed">
@@ -289,7 +291,7 @@ def test_a_tool_link_comes_behind_all_else_as_the_file_is_indented():
   </joint>
 </robot>
 """
-    assert text.startswith(ARM.removesuffix("\n</robot>\n") + "\n  <link name=")
+    assert text.startswith(given.removesuffix("\n</robot>\n") + "\n  <link name=")
     numbers = re.search(r'xyz="([^"]*)" rpy="([^"]*)"/>\n  </joint>\n</robot>\n$', text)
     assert numbers
     found = [float(x) for x in " ".join(numbers.groups()).split()]
