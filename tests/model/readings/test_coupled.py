@@ -223,7 +223,7 @@ def test_readings_without_limits_are_drawn_from_where_the_joints_own_limits_lie(
 def test_a_chain_that_no_configuration_keeps_within_its_joints_limits_draws_none():
     far = np.tile([50.0, 51.0], (6, 1))
     with pytest.raises(
-        InputError, match="of 10000 draws .* none keeps the joints within their own: joint_limits"
+        InputError, match=r"of 10000 draws .* none keeps the joints within their own: joint_limits"
     ):
         ARM.replace(joint_limits=far).random(0)
 
