@@ -42,6 +42,13 @@ def test_lengths_are_zero_tiny_and_up_to_two_metres():
     assert ((lengths > 0) & (lengths < 1e-6)).any()
 
 
+def test_mounts_are_in_their_place_or_from_a_millimetre_to_two_metres_off():
+    away = np.array([np.linalg.norm(T[:3, 3]) for T in drawn(dh_strategies.mounts())])
+    assert (away == 0).any()
+    assert 1e-3 * (1 - 1e-15) <= away[away > 0].min() < 0.01
+    assert 1 < away.max() <= 2 * (1 + 1e-15)
+
+
 def test_tables_are_of_both_conventions_and_kinds_with_flips_base_and_tool():
     tables = drawn(dh_strategies.tables(), 200)
     rows = [row for table in tables for row in table.rows]

@@ -192,6 +192,9 @@ def test_the_second_oracle_is_asked_about_pose_and_jacobian(monkeypatch):
         patch.setattr(arm_cases.confirm, "of_velocities", lambda *_: False)
         assert not arm_cases.confirmed(arm, q, jacobian=True)
         assert arm_cases.confirmed(arm, q, jacobian=False)
+        # only the law of the Jacobian asks of velocities
+        agreed = {name: law.confirm(SUBJECT, CASE) for name, law in LAWS.items()}
+        assert agreed == {name: "jacobian" not in name for name in LAWS}
     monkeypatch.setattr(arm_cases.confirm, "of_pose", lambda *_: False)
     assert not arm_cases.confirmed(arm, q, jacobian=False)
     assert not arm_cases.confirmed(arm, q, jacobian=True)
