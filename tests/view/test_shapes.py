@@ -140,6 +140,16 @@ def test_the_arc_of_a_revolute_joint_turns_the_positive_way():
     assert high <= 3 * 0.05  # the head's radius
 
 
+@pytest.mark.parametrize("radius", [0.25, 1.0, 3.0])
+def test_an_arc_s_head_is_two_of_its_radii_long_and_ends_at_the_angle(radius):
+    made = shapes.arc_arrow(radius, 0.02 * radius, 2.0)
+    base, tip = made.vertices[-2:]
+    assert np.linalg.norm(tip - base) == pytest.approx(6 * 0.02 * radius, rel=1e-14)
+    # a chord instead of an arc of 0.12 rad
+    end = radius * np.array([math.cos(2.0), math.sin(2.0), 0.0])
+    assert np.linalg.norm(tip - end) <= 0.12**3 * radius
+
+
 @pytest.mark.parametrize("rise", [2.0, -2.0])
 def test_a_helix_is_right_handed_where_its_pitch_is_positive(rise):
     points = shapes.helix_points(1.0, 6 * math.pi, rise)

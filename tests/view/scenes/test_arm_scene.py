@@ -234,6 +234,13 @@ def test_the_glyph_of_a_helical_joint_has_the_hand_of_its_screw(pitch):
     assert math.copysign(1.0, end - start) == math.copysign(1.0, pitch)
 
 
+def test_the_table_numbers_the_axes_as_their_labels_do():
+    scene = arm_scene(odd_robot())
+    (table,) = scene.tables
+    labels = [node.text for node in of_kind(scene.nodes, Label, "axes")]
+    assert [row[0] for row in table.rows] == labels == ["A1", "A2", "A3", "A4", "A5"]
+
+
 def test_the_rail_of_a_prismatic_joint_reaches_over_its_limits():
     robot = odd_robot()
     arm = arm_geometry(robot, ())
@@ -246,11 +253,13 @@ def test_the_rail_of_a_prismatic_joint_reaches_over_its_limits():
     assert 0.4 < along.max() < 0.42
 
 
+@pytest.mark.parametrize("size", [0.5, 1.0, 2.0])
 @pytest.mark.parametrize(("limit", "end"), [(20.0, 20.0), (np.nextafter(20.0, 21.0), 0.5)])
-def test_a_rail_is_drawn_up_to_twenty_sizes_of_the_arm(limit, end):
+def test_a_rail_is_drawn_up_to_twenty_sizes_of_the_arm(limit, end, size):
+    limit, end = size * limit, size * end
     slide = pk.Joint("slide", "prismatic", "base", "cart", axis=(1, 0, 0), limits=(-limit, limit))
     (joint,) = arm_geometry(pk.Robot("cart", ["base", "cart"], [slide]), ()).joints
-    low, high = skeleton._rail(joint, 1.0)
+    low, high = skeleton._rail(joint, size)
     assert (low.tolist(), high.tolist()) == ([-end, 0, 0], [end, 0, 0])
 
 
@@ -514,22 +523,26 @@ def test_many_shapes_that_are_not_drawn_for_one_reason_make_one_sentence():
     ]
 
 
-def test_the_glyph_of_a_slide_is_as_wide_as_its_way():
+@pytest.mark.parametrize(
+    ("kind", "radius"), [("prismatic", 0.02), ("revolute", 0.06), ("helical", 0.06)]
+)
+def test_the_glyph_of_a_slide_is_as_wide_as_its_way_and_no_other_glyph_is(kind, radius):
     """Its radius is half the way, where its neighbours leave more room."""
     joints = [
         pk.Joint("turn", "revolute", "base", "post"),
         pk.Joint(
             "slide",
-            "prismatic",
+            kind,
             "post",
             "cart",
             pk.se3.exp([0, 0, 0, 1, 0, 0]),
             limits=(-0.01, 0.03),
+            pitch=0.1 * (kind == "helical"),
         ),
         pk.Joint("tilt", "revolute", "cart", "arm", pk.se3.exp([0, 0, 0, 0, 1, 0])),
     ]
     arm = arm_geometry(pk.Robot("cart", ["base", "post", "cart", "arm"], joints), ())
-    assert glyph_radii(arm, np.zeros(2 + 1), 1.5)[1] == 0.02
+    assert glyph_radii(arm, np.zeros(2 + 1), 1.5)[1] == radius
 
 
 @pytest.mark.parametrize("size", (0.1, 2.0))

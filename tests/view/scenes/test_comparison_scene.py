@@ -129,6 +129,7 @@ def test_joints_that_cannot_be_matched_are_drawn_as_they_stand():
     scene = comparison_scene(found)
     assert not red(scene)
     assert not scene.arms[1].factors.any()
+    np.testing.assert_array_equal(scene.arms[1].base, np.eye(4))
     assert scene.words[0].startswith("The models differ: 7 joints against 6")
 
 
