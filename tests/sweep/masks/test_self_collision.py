@@ -105,6 +105,11 @@ def test_spheres_that_are_given_touch_as_far_apart_as_their_radii(robot, arm):
     p = T[:, :3, :3] @ [0, 0, 0.05] + T[:, :3, 3]
     apart = np.linalg.norm(p - [0, 0, 0.3], axis=1)
     np.testing.assert_array_equal(mask.touches(arm, q), apart <= 0.3)
+    # whatever the order of a robot's links
+    backwards = pk.Robot(robot.name, robot.links[::-1], robot.joints)
+    same = SelfCollision.of_spheres(backwards, arm, given)
+    assert same.pairs == tuple(pair[::-1] for pair in mask.pairs[::-1])
+    np.testing.assert_array_equal(same.touches(arm, q), apart <= 0.3)
     assert mask.pairs == (("base", "lower"), ("base", "hand"), ("lower", "hand"))
     assert mask.touches(arm, q[0]).shape == ()
     assert mask.touches(arm, q[:6].reshape(2, 3, 3)).shape == (2, 3)
@@ -183,6 +188,9 @@ def test_another_arm_and_geometry_that_is_missing_are_refused(robot, arm, mask, 
     with pytest.raises(
         FileError, match=r"self-collision: .*r\.urdf.*'lost.stl': there is no such file"
     ):
+        SelfCollision.of_robot(lost, lost.chain(tip="hand"))
+    lost = robot_in(tmp_path, urdf(SHAPES | {"lower": f'<mesh filename="{"m" * 197}.stl"/>'}))
+    with pytest.raises(FileError, match=r"'m{197}\.s…': there is no such file"):
         SelfCollision.of_robot(lost, lost.chain(tip="hand"))
     wrong = robot_in(tmp_path, urdf(SHAPES | {"lower": '<sphere radius="-1"/>'}))
     with pytest.raises(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import poekin as pk
 from poekin.errors import InputError, ShapeError
 from poekin.sweep.measures.error_sources import covariance_sources, tolerance_sources
 from tests.messages import says
@@ -55,6 +56,8 @@ def test_there_are_as_many_sources_as_numbers_that_are_off():
     all_of_them = tolerance_sources(ARM, 1.0, [1.0, 2.0], 1.0, 1.0, 1.0)
     assert all_of_them.shape == (2 * 2 + 2 * 2 + 2 + 3 + 3, 3, 6)
     assert tolerance_sources(ARM, 0, 0, 0, 1e-300, 0).shape == (3, 3, 6)
+    seven = pk.load("iiwa14").chain()
+    assert tolerance_sources(seven, 1.0, 1.0, 1.0, 1.0, 1.0).shape == (4 * 7 + 7 + 6, 8, 6)
     assert tolerance_sources(ARM, 0, 0, 0, 0, 0).shape == (0, 3, 6)
 
 
