@@ -255,6 +255,11 @@ def test_a_sound_array_is_taken_as_it_is():
             ShapeError,
             r"got \(3, 3\): pk.se3.pose\(R, p\) makes a pose of a rotation and a translation$",
         ),
+        (
+            lambda: se3.log(XI[3:]),
+            ShapeError,
+            r"got \(3,\): pk.se3.pose\(np.eye\(3\), p\) makes a pose of a position$",
+        ),
         (lambda: se3.log(XI), ShapeError, r"got \(6,\): pk.se3.exp of a twist is a pose$"),
         (
             lambda: so3.log(T),
