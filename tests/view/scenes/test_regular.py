@@ -70,6 +70,7 @@ def test_the_fewest_joints_are_turned_that_do_nearly_as_well_as_any(name):
     good = every[condition <= GOOD * condition.min() * (1 - 1e-9)]
     count = (good != plain).sum(axis=1)
     assert (q != plain).sum() == count.min()
+    # a limit's half and its sum with q, rounded at up to 2 rad
     assert np.abs(good - q).max(axis=1).min() <= 1e-15
     arm = arm_geometry(chain, ())
     lowest = [arm.points(row)[:, 2].min() for row in good[count == count.min()]]

@@ -102,6 +102,7 @@ def test_slides_that_lie_alike_are_told_on_either_side_of_where_they_are_paralle
     # t = d - w, and t + t^2 / 2 - w^2 / 2 = 1 is (1 + d) w = d + d^2 / 2 - 1
     one, none = two_lines.roots((1.0, 0.0, 1.0, 0.0, d), (1.0, 0.5, 0.0, -0.5, 1.0))
     w = (d + d * d / 2 - 1) / (1 + d)
+    # lengths of up to 3, whose sums and quotient round a few times
     assert (one[0], one[2]) == pytest.approx((d - w, w), abs=16 * U)
     assert one[4] > 0
     assert none[4] == -two_lines.NO_ROW
