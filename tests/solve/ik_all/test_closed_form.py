@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import FrozenInstanceError
 from itertools import product
+from typing import Any
 
 import numpy as np
 import pytest
@@ -142,6 +144,12 @@ def test_arms_of_the_catalogue_have_a_closed_form(name, family):
     assert found.family == family
     assert found.said() == f"closed form ({family})"
     check(chain, found, 1, 2000)
+
+
+def test_a_closed_form_cannot_be_changed():
+    found: Any = closed_form(pk.load("puma560").chain())
+    with pytest.raises(FrozenInstanceError):
+        found.dof = 5
 
 
 def test_an_arm_without_joints_has_none():

@@ -9,7 +9,7 @@ import pytest
 
 import poekin as pk
 from poekin.groups import se3
-from poekin.solve.calibration import Points, Poses, calibrate
+from poekin.solve.calibration import Distances, Points, Poses, calibrate
 from poekin.solve.calibration.diagnostics.identification import identify_directions
 from poekin.solve.calibration.fit import covariance, fitting, losses
 from poekin.solve.calibration.fit.covariance import clusters_of, covariance_of
@@ -46,6 +46,9 @@ def test_the_covariance_of_a_robust_loss_is_huber_s(loss: LossName):
     def psi(e: np.ndarray) -> np.ndarray:
         return e * losses.loss(loss, (e**2).sum(1), 6).weight[:, None]
 
+    np.testing.assert_allclose(
+        covariance._scores(problem, fit, options), psi(e).ravel(), rtol=0, atol=1e-12
+    )
     # where the sum of rho is least its slope is 0, to the last step that was taken
     score = J.T @ psi(e).ravel()
     assert np.abs(score).max() <= 1e-4 * np.abs(J.T * psi(e).ravel()).sum(axis=1).max()
@@ -85,6 +88,7 @@ def test_errors_are_taken_together_where_a_configuration_carries_more_than_a_poi
     assert sets_of(q, Points(p)) is None
     assert sets_of(q, Poses(PUMA.fk(q), C)) is None
     assert sets_of(q, Poses(PUMA.fk(q))).tolist() == np.repeat(range(4), 6).tolist()
+    assert sets_of(q, Distances(np.linalg.norm(p, axis=1), [0.0, 0, 0])) is None
     again = [0, 1, 2, 3, 1]
     assert sets_of(q[again], Points(p[again])).tolist() == np.repeat(again, 3).tolist()
     both = sets_of(q, Points(p), Points(p[:2], rows=[3, 2]))

@@ -41,3 +41,6 @@ def test_labels_of_panels_are_in_the_picture_and_on_no_other_panel(count, lines,
     assert left.min() < 0.3
     assert bottom.min() < 0.3
     assert height - top.max() < 0.3
+    # panels from half an inch above the lower edge to a tenth below the upper one
+    assert height * figure.subplotpars.bottom == pytest.approx(0.5, rel=1e-12)
+    assert height * (1.0 - figure.subplotpars.top) == pytest.approx(0.1, rel=1e-12)

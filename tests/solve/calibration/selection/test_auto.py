@@ -56,6 +56,7 @@ def test_it_judges_by_held_out_readings_and_says_so_without_any():
         InputError, match=r"'auto' judges by held-out readings, expected folds >= 2"
     ):
         calibrate(chain, made.q, made.points, parameters="auto", folds=0)
+    assert len(auto(chain, made, folds=2).terms) == 8
 
 
 def test_a_robust_loss_finds_it_among_outliers():

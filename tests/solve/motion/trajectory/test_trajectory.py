@@ -197,6 +197,11 @@ def test_how_far_the_tip_leaves_the_lines_between_its_waypoints_is_measured():
     bent = motion.time_optimal(table, [[0, 0], [1, 0], [1, 1]], speed=1.0, acceleration=1.0)
     # the parabola over s = 0, 1, 2: (s (3 - s) / 2, s (s - 1) / 2): y = -1/8 at s = 1/2
     assert bent.path_deviation == pytest.approx(1 / 8, rel=1e-5)
+    for count in (4, 5):
+        on_one_line = np.outer(np.arange(count), [3, 4])
+        found = motion.time_optimal(table, on_one_line, speed=1.0, acceleration=1.0)
+        # positions of up to 20 m, rounded a few times
+        assert found.path_deviation < 2e-14
 
 
 def test_beyond_the_end_of_a_line_the_tip_is_off_it_too():
