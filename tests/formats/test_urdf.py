@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from poekin.errors import PoekinWarning
 from poekin.formats import urdf
+from poekin.model.checks import LONGEST
 from poekin.model.joint import SafetyController
 from poekin.model.robot import Robot
 from tests.formats.texts import LIMIT, chain_of, one_joint
@@ -165,6 +166,12 @@ def test_limits_that_are_none_are_told_with_what_they_are(limit, reason, limits)
         == f"f:{line}: joints without usable limits are taken as unlimited: 'j' ({reason})"
     )
     assert robot.joints[0].limits == limits
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_largest_length_is_taken(sign):
+    robot = read(f'<origin xyz="0 {sign * LONGEST!r} 0"/>{LIMIT}')
+    assert robot.joints[0].origin[1, 3] == sign * LONGEST
 
 
 def test_an_axis_that_is_not_unit_is_normalised_with_one_warning():

@@ -51,6 +51,5 @@ def reason(fault: OSError | ValueError) -> str:
     return getattr(fault, "strerror", None) or str(fault)
 
 
-_NEW = (
-    os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
-)
+# a link in its place, too, is refused by O_EXCL
+_NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)

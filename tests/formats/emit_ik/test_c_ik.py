@@ -15,8 +15,9 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError
 from poekin.formats import emit
+from poekin.formats.emit.ik.c_ik_selftest import selftest
 from poekin.formats.emit.ik.closed_arm import closed_arm
-from poekin.formats.emit.ik.ik_vectors import solutions
+from poekin.formats.emit.ik.ik_vectors import Targets, solutions
 from poekin.formulas.inverse import confirmed
 from poekin.groups import se3
 from tests.solve.ik_all import closed_form_arms as arms
@@ -287,6 +288,13 @@ def test_its_own_test_fails_where_one_digit_of_the_arm_is_wrong(build_once):
     assert (code, said.split()[-1]) == (1, "FAILED")
     code, said = build_once(source).selftest()
     assert (code, said.split()[-1]) == (0, "passed")
+
+
+def test_without_any_solution_a_test_has_one_row_that_is_not_read():
+    text = selftest("far", np.zeros(3), Targets(np.eye(4)[None], [np.empty((0, 3))]))
+    (rows,) = re.findall(r"EXPECTED\[1\]\[3\] = \{\n(.*?)\n\};", text, re.DOTALL)
+    assert len(rows.splitlines()) == 1
+    assert "COUNTS[TARGETS] = {0};" in text
 
 
 def test_angles_are_alike_after_whole_turns_and_lengths_are_not():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from typing import Any
 
 import numpy as np
@@ -307,9 +308,9 @@ def test_an_empty_text_is_refused_and_one_of_names_alone_has_no_poses(tmp_path):
 
 
 def test_a_text_is_of_bounded_length(tmp_path, monkeypatch):
-    import importlib
-
-    monkeypatch.setattr(importlib.import_module("poekin.formats.poses.read"), "LARGEST", 20)
+    module = importlib.import_module("poekin.formats.poses.read")
+    assert module.LARGEST == 268_435_456
+    monkeypatch.setattr(module, "LARGEST", 20)
     path = tmp_path / "long.csv"
     path.write_text("1 2 3 4 5 6\n" * 2)
     with pytest.raises(FileError, match=r"long\.csv: at most 20 characters expected$"):

@@ -76,6 +76,8 @@ def test_units_of_a_header_are_made_those_that_are_wanted():
 REFUSED = {
     "mixed": ("X [mm],Y [m],A,q\n", (), InputError,
               "f.csv:1: 'X' is in mm and 'Y' in m; expected one unit, said with each of them or with none"),
+    "mixed, the longer one first": ("X [m],Y [mm],A,q\n", (), InputError,
+              "f.csv:1: 'X' is in m and 'Y' in mm; expected one unit, said with each of them or with none"),
     "half": ("X [mm],Y,A,q\n", (), InputError,
              "f.csv:1: 'X' is in mm and 'Y' in no unit; expected one unit, said with each of them or with none"),
     "contradicted length": ("X [m],Y [m],A,q\n", ("mm",), InputError,

@@ -29,6 +29,7 @@ mixed = [1, "a"]
 """
 REFUSED = {
     "missing": (lambda k: k.value("none"), "f: none is missing"),
+    "missing, of a long name": (lambda k: k.value("k" * 81), f"f: {'k' * 79}… is missing"),
     "no table": (lambda k: k.table("one"), "f: one: expected a table, got 1"),
     "unknown in a table": (
         lambda k: k.table("table", ["y"]),
