@@ -212,6 +212,16 @@ def test_a_tip_stands_for_all_that_are_fixed_to_its_body():
         [pk.Joint("b", "fixed", "a", "b"), pk.Joint("c", "fixed", "a", "c")],
     )
     assert default_tips(still) == ("b",)
+    # of those behind one joint the farthest, whatever their order
+    joints = [
+        pk.Joint("turn", "revolute", "a", "arm"),
+        pk.Joint("long", "fixed", "arm", "hand"),
+        pk.Joint("longer", "fixed", "hand", "finger"),
+        pk.Joint("short", "fixed", "arm", "lamp"),
+    ]
+    for leaves in (["finger", "lamp"], ["lamp", "finger"]):
+        lit = pk.Robot("lit", ["a", "arm", "hand", *leaves], joints)
+        assert default_tips(lit) == ("finger",)
     assert default_tips(pk.Robot("one", ["a"], [])) == ("a",)
 
 

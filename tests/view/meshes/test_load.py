@@ -167,6 +167,16 @@ HOSTILE = {
         "m.glb",
         "does not exist",
     ),
+    "a vertex too few": (
+        glb(
+            accessors=[
+                {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                {"bufferView": 1, "componentType": 5125, "count": 12, "type": "SCALAR"},
+            ]
+        ),
+        "m.glb",
+        "does not exist",
+    ),
     "no triangles": (b"v 0 0 0\n", "m.obj", "no triangles|cannot be read"),
     "cut off": (stl()[:-20], "m.stl", "cannot be read|no triangles"),
     "an unknown ending": (stl(), "m.mesh", "ends in .stl, .obj"),

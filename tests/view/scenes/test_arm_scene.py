@@ -553,6 +553,12 @@ def test_of_joints_that_stand_close_together_the_glyphs_are_a_share_of_the_arm(s
     chain = pk.Chain.from_space(screws, pk.se3.pose(np.eye(3), [size, 0, 0]))
     radii = glyph_radii(chain_geometry(chain), np.zeros(4), size)
     assert radii[:2] == pytest.approx([0.006 * size] * 2)
+    # and where all stand together
+    places = [[0.011 * size * k, 0, 0] for k in range(4)]
+    screws = [pk.screw.revolute([0, 0, 1], place) for place in places]
+    chain = pk.Chain.from_space(screws, pk.se3.pose(np.eye(3), [size, 0, 0]))
+    radii = glyph_radii(chain_geometry(chain), np.zeros(4), size)
+    assert radii == pytest.approx([0.006 * size] * 4)
 
 
 @pytest.mark.parametrize(("length", "bones"), [(1e-4, 1), (1e-2, 2)])
