@@ -11,9 +11,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from lxml import etree
 
 from poekin.errors import InputError, MissingExtra, ModelError, UnknownName
+from poekin.formats.text import xml
 from poekin.testing.oracles import pinocchio_oracle, pinocchio_urdf
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
@@ -38,7 +38,7 @@ TWO_LINKS = """<robot name="r"><link name="a"/><link name="b"/><joint name="j" t
 def test_elements_are_those_of_the_root_s_namespace_without_it():
     text = """<robot xmlns="http://ns" xmlns:o="http://other" o:key="1" name="r"><link name="a"/>
     <o:link name="b"><link name="c"/></o:link></robot>"""
-    root = pinocchio_urdf.plain(etree.fromstring(text))
+    root = pinocchio_urdf.plain(xml.parse(text, "text", tell=False))
     assert (root.tag, dict(root.attrib)) == ("robot", {"name": "r"})
     assert [(element.tag, element.get("name")) for element in root] == [("link", "a")]
 
