@@ -71,7 +71,7 @@ class Source:
             documentation.update(
                 range(statement.lineno, (statement.end_lineno or statement.lineno) + 1)
             )
-        tokens = tokenize.generate_tokens(io.StringIO(self.text).readline)
+        tokens = _whole_strings(tokenize.generate_tokens(io.StringIO(self.text).readline))
         lines = (token.start[0] for token in tokens if token.type not in LAYOUT)
         return Counter(line for line in lines if line not in documentation)
 
@@ -86,6 +86,16 @@ class Source:
             isinstance(a.targets[0], ast.Tuple) and isinstance(a.value, ast.Tuple)
             for a in assignments
         )
+
+
+def _whole_strings(tokens: Iterator[tokenize.TokenInfo]) -> Iterator[tokenize.TokenInfo]:
+    """Tokens, an f-string as its first one: from Python 3.12 on its parts are tokens too."""
+    depth = 0
+    for token in tokens:
+        if not depth:
+            yield token
+        name = tokenize.tok_name[token.type]
+        depth += name.endswith("STRING_START") - name.endswith("STRING_END")
 
 
 def sources(root: Path) -> list[Source]:

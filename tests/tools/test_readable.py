@@ -25,6 +25,7 @@ def measured(tmp_path, **files: str) -> dict[str, float]:
         ('"""What a file says\n\nin many lines."""\nx = 1\n', "code tokens", 3),
         ('def f():\n    """Words."""\n    return 1\n', "code tokens", 5 + 2),
         ('x = """A text is code."""\n', "code tokens", 3),
+        ('x = f"{a} and {b!r:{width}}" "c" + y\n', "code tokens", 6),
         ("a, b = 1, 2\nc = 3\n", "tuple assignments", 50),
         (
             "a, b = f()\n(c, d) = (a, b)\n[e] = d\nfor g, h in a: pass\n",
