@@ -2,11 +2,10 @@
 
 The rigid motion e^ξ_i takes the axis of a to that of b, and the joint e^{B_i y_i} is drawn as
 
-    e^{ξ_i (k - 1)} e^{B_i y_i} e^{-ξ'_i (k - 1)},   ξ'_i = Ad(e^{-B_i z_i}) ξ_i
+    e^{ξ_i (k - 1)} e^{B_i y_i} e^{-ξ_i (k - 1)}
 
-so that its axis is a's at k = 0, b's at k = 1, and differs k times as much at any k, while at z_i,
-where a's joint is at 0, what is behind stays: a product of exponentials again, and so a chain, which
-the page moves as any other.
+so that its axis is a's at k = 0, b's at k = 1, and differs k times as much at any k: a product of
+exponentials again, and so a chain, which the page moves as any other.
 """
 
 from __future__ import annotations
@@ -79,12 +78,13 @@ def exaggerated(found: Comparison) -> Exaggerated:
     """Model b of a comparison, with the coordinate k where an axis differs."""
     a = uncoupled_at_zero(found.a)
     b = found.b
-    moves = np.zeros((len(b.screws) + 1, 2, 6))  # there and back
-    if found.base is None:
+    moves = np.zeros((len(b.screws) + 1, 6))
+    if not found.joints:
         return _assembled(b, moves, 1.0)
     # poses in a's base of what b's joints carry at a's zeros: base e^{B_1 z_1} ... e^{B_i z_i}
+    base = np.eye(4) if found.base is None else found.base
     zeros, _ = zeros_and_directions(found)
-    carriers = found.base @ chain_geometry(b).poses(zeros)
+    carriers = base @ chain_geometry(b).poses(zeros)
     to_a = se3.adjoint(carriers)
     to_b = se3.adjoint(se3.inverse(carriers))
     ours = lines(a)
@@ -97,7 +97,7 @@ def exaggerated(found: Comparison) -> Exaggerated:
             slides = np.array([prismatic(a)[k], prismatic(b)[i]])
             move = _motion(axes, slides, ours.places[k] + centre)
             largest = max(largest, _size(move, centre, a.reach))
-            moves[i] = to_b[i : i + 2] @ move
+            moves[i] = to_b[i] @ move
     factor = 1.0
     if largest > NOISE:
         factor = visible_factor(largest, a.reach)
@@ -141,7 +141,7 @@ def _size(move: Array, centre: Array, reach: float) -> float:
 
 
 def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
-    """The chain of b's joints, each between the motion of its axis there and back (n + 1, 2, 6)."""
+    """The chain of b's joints, each between the motion of its axis there and back."""
     n = len(b.screws)
     if factor == 1:
         bodies = (*range(n + 1), n)
@@ -150,7 +150,7 @@ def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
     own = np.eye(n + 1)
     bodies = [0]
     axes = []
-    for i, (move, back) in enumerate(moves):
+    for i, move in enumerate(moves):
         screw, size = _unit(move)
         way = np.r_[np.zeros(n), size]
         if size:
@@ -159,7 +159,7 @@ def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
         if i < n:
             joints.append(_ChainJoint(b.screws[i], own[i], 0.0, b.joint_names[i]))
             if size:
-                joints.append(_ChainJoint(_unit(back)[0], -way, size, f"{FACTOR} {i + 1} back"))
+                joints.append(_ChainJoint(screw, -way, size, f"{FACTOR} {i + 1} back"))
         bodies.append(len(joints))
     screws, rows, offset, names = zip(*joints, strict=True)
     chain = Chain(
@@ -178,7 +178,7 @@ def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
         chain,
         bodies=tuple(bodies),
         axes=tuple(axes[:n]),
-        moves=moves[:, 0],
+        moves=moves,
         factor=factor,
     )
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
@@ -53,14 +52,12 @@ def axis_at(made: Any, k: float, joint: int, q: Any) -> np.ndarray:
     return pk.se3.adjoint(bodies[made.axes[joint]]) @ axis
 
 
-@given(st.integers(1, 5), st.lists(SIZES, min_size=6, max_size=6), st.integers(0, 2**31), SIZES)
+@given(st.integers(1, 5), st.lists(SIZES, min_size=6, max_size=6), st.integers(0, 2**31))
 @settings(max_examples=25, deadline=None)
-@example(3, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0], 0, 1.0)
-def test_at_one_it_is_b_and_at_zero_a_at_all_joint_values(joint, sizes, seed, zero):
+def test_at_one_it_is_b_and_at_zero_a_at_all_joint_values(joint, sizes, seed):
     twist = np.array(sizes) * [3e-3, 3e-3, 3e-3, 5e-3, 5e-3, 5e-3]
     base = pk.se3.exp([0.3, -0.2, 0.5, 0.1, 0.2, -0.4])
-    b = moved(joint, twist).rezeroed(zero * np.eye(7)[joint])
-    found = pk.compare(ARM, b.rebased(base))
+    found = pk.compare(ARM, moved(joint, twist).rebased(base))
     made = exaggerated(found)
     q = ARM.random(seed)
     y = own(found, q)
@@ -129,15 +126,11 @@ def test_models_that_agree_have_no_factor():
         assert not made.moves.any()
 
 
-@pytest.mark.parametrize("zeros", [np.zeros(7), np.linspace(0.2, 0.8, 7)], ids=["", "rezeroed"])
-def test_a_longer_link_takes_the_tool_along(zeros):
+def test_a_longer_link_takes_the_tool_along():
     longer = pk.se3.exp([0, 0, 0, 0, 0, 0.003])
     screws = ARM.screws.copy()
     screws[4:] = screws[4:] @ pk.se3.adjoint(longer).T
     found = pk.compare(ARM, ARM.replace(screws=screws, home=longer @ ARM.home))
-    pairs = zip(found.joints, zeros.tolist(), strict=True)
-    joints = tuple(replace(joint, zero_offset=joint.zero_offset - x) for joint, x in pairs)
-    found = replace(found, b=found.b.rezeroed(zeros), joints=joints)
     made = exaggerated(found)
     assert made.factor > 1
     q = ARM.random(3)
