@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import secrets
 import stat
 import sys
 
@@ -75,3 +76,20 @@ def test_a_device_stays_one():
 def test_a_name_that_no_file_can_have_is_refused_in_words():
     with pytest.raises(FileError, match=r"^cannot write 'a\\x00': .*embedded null"):
         write_whole("a\0", b"1")
+
+
+@pytest.mark.parametrize("link", [False, True])
+def test_what_has_the_temporary_name_already_is_not_written_to(tmp_path, monkeypatch, link):
+    monkeypatch.setattr(secrets, "token_hex", lambda size: "guessed")
+    other = tmp_path / "other"
+    other.write_bytes(b"another's")
+    planted = tmp_path / ".new.guessed.part"
+    if link:
+        planted.symlink_to(other)
+    else:
+        planted.write_bytes(b"another's")
+    with pytest.raises(FileError, match=r"^cannot write '.*new': File exists$"):
+        write_whole(tmp_path / "new", b"1")
+    assert planted.is_symlink() == link
+    assert other.read_bytes() == planted.read_bytes() == b"another's"
+    assert not (tmp_path / "new").exists()

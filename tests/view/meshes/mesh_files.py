@@ -56,6 +56,14 @@ def dae(
 </library_visual_scenes><scene><instance_visual_scene url="#scene"/></scene></COLLADA>""".encode()
 
 
+def accessors(vertices: int = 4, of_faces: int = 1) -> list[dict]:
+    """How many vertices a GLB has, and in which part of its data the faces are."""
+    return [
+        {"bufferView": 0, "componentType": 5126, "count": vertices, "type": "VEC3"},
+        {"bufferView": of_faces, "componentType": 5125, "count": 12, "type": "SCALAR"},
+    ]
+
+
 def glb(**changes) -> bytes:
     """GLB of the tetrahedron; changes, parts of its tree that are replaced."""
     data = TETRAHEDRON.astype("<f4").tobytes() + FACES.astype("<u4").tobytes()
@@ -66,10 +74,7 @@ def glb(**changes) -> bytes:
         "nodes": [{"mesh": 0, "translation": [1, 2, 3]}],
         "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0, 1, 0, 1]}}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
-            {"bufferView": 1, "componentType": 5125, "count": 12, "type": "SCALAR"},
-        ],
+        "accessors": accessors(),
         "bufferViews": [
             {"buffer": 0, "byteOffset": 0, "byteLength": 48},
             {"buffer": 0, "byteOffset": 48, "byteLength": 48},

@@ -11,6 +11,7 @@ from poekin.view.meshes import kept, load, refuse
 from tests.view.meshes.mesh_files import (
     FACES,
     TETRAHEDRON,
+    accessors,
     corners,
     dae,
     glb,
@@ -158,25 +159,11 @@ HOSTILE = {
     "too far": (stl(TETRAHEDRON * 1e30), "m.stl", "finite vertices within 1e"),
     "a vertex that does not exist": (obj(faces=FACES + 7), "m.obj", "cannot be read|exist"),
     "numbers of no vertex": (
-        glb(
-            accessors=[
-                {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
-                {"bufferView": 0, "componentType": 5125, "count": 12, "type": "SCALAR"},
-            ]
-        ),
+        glb(accessors=accessors(of_faces=0)),
         "m.glb",
         "does not exist",
     ),
-    "a vertex too few": (
-        glb(
-            accessors=[
-                {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
-                {"bufferView": 1, "componentType": 5125, "count": 12, "type": "SCALAR"},
-            ]
-        ),
-        "m.glb",
-        "does not exist",
-    ),
+    "a vertex too few": (glb(accessors=accessors(vertices=3)), "m.glb", "does not exist"),
     "no triangles": (b"v 0 0 0\n", "m.obj", "no triangles|cannot be read"),
     "cut off": (stl()[:-20], "m.stl", "cannot be read|no triangles"),
     "an unknown ending": (stl(), "m.mesh", "ends in .stl, .obj"),
