@@ -47,10 +47,8 @@ def calibration_scene(found: Calibration) -> Scene:
     scene = arm_scene(found.nominal, q=_widest(found))
     side_by_side = compare(found.nominal, found.chain, strict=True)
     second = exaggerated(side_by_side)
-    own = side_by_side.b
-    factors = np.asarray(found.chain.coupling)
-    arm = second_arm(second, np.eye(4), factors, np.zeros(len(factors)))
-    nodes = second_nodes(second, chain_geometry(own), {}, (), scene.size)
+    arm = second_arm(second, np.eye(4), np.asarray(found.chain.coupling))
+    nodes = second_nodes(second, {}, (), scene.size)
     words = [changes.sentence(found), *found.warnings]
     if vectors is not None and len(vectors.places):
         lengths = norms(np.array([vectors.before, vectors.after]))

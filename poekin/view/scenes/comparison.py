@@ -14,7 +14,7 @@ from ...groups import se3
 from ..scene import PageTable, Scene
 from .arm import arm_scene, arm_size
 from .arm_parts.of_chain import chain_geometry
-from .two_arms.exaggerated import compared_rows, exaggerated, zeros_and_directions
+from .two_arms.exaggerated import compared_rows, exaggerated
 from .two_arms.overlay import second_arm, second_nodes
 
 MOST_WORDS = 8
@@ -57,19 +57,17 @@ def comparison_scene(found: Comparison, *, q: Any = None, title: str = "") -> Sc
     """
     scene = arm_scene(found.a, q=q)
     second = exaggerated(found)
-    geometry = chain_geometry(found.b)
     base = np.eye(4) if found.base is None else found.base
     n = len(found.b.screws)
     factors = np.zeros((n, found.a.dof))
-    shift = np.zeros(n)
     if found.joints:
-        shift, directions = zeros_and_directions(found)
-        factors = directions[:, None] * found.a.coupling[compared_rows(found)]
-    arm = second_arm(second, base, factors, shift)
-    own_size = arm_size(geometry, np.zeros(n))
+        directions = [[-1.0 if joint.reversed else 1.0] for joint in found.joints]
+        factors = directions * found.a.coupling[compared_rows(found)]
+    arm = second_arm(second, base, factors)
+    own_size = arm_size(chain_geometry(second.b), np.zeros(n))
     size = max(scene.size, own_size)
     ends = set(_moved_ends(found))
-    nodes = second_nodes(second, geometry, _sentences(found), ends, size)
+    nodes = second_nodes(second, _sentences(found), ends, size)
     lines = found.summary().splitlines()
     words = [lines[-1], LEGEND, *lines[:-1]]
     left = len(words) - MOST_WORDS

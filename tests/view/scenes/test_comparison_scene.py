@@ -24,6 +24,11 @@ def lifted(joint=3, length=0.003):
     return ARM.replace(screws=screws)
 
 
+def of_b(found, y):
+    """Pose of model b at coordinates whose zero is where a's joints are at 0."""
+    return found.b.fk(y + [joint.zero_offset for joint in found.joints])
+
+
 def red(scene):
     return {node.attachment.name for node in scene.nodes if node.attachment.role == "differs"}
 
@@ -100,7 +105,7 @@ def test_the_second_arm_stands_where_compare_aligned_it():
     q = ARM.random(4)
     own = second.factors @ q + second.shift
     assert own[-1] == scene.exaggerated  # k when the page opens
-    aligned = second.base @ found.b.fk(own[:-1]) @ found.tool
+    aligned = second.base @ of_b(found, own[:-1]) @ found.tool
     true = ARM.fk(q)
     # the axis that is 3 mm off moves the tool by up to 6 mm
     assert np.abs(aligned - true)[:3, 3].max() < 0.007
@@ -117,7 +122,8 @@ def test_reversed_joints_and_other_zeros_stand_on_the_first_arm():
     assert found.tool is not None
     assert (scene.exaggerated, second.factors[2, 2]) == (1.0, -1.0)
     q = ARM.random(5)
-    found_at = second.base @ found.b.fk(second.factors @ q + second.shift) @ found.tool
+    assert not second.shift.any()
+    found_at = second.base @ of_b(found, second.factors @ q) @ found.tool
     np.testing.assert_allclose(found_at, ARM.fk(q), atol=1e-9)
     assert len(red(scene)) == len(found.differing) == 2
 
@@ -161,29 +167,36 @@ def test_frames_of_the_second_arm_are_drawn_where_they_are_elsewhere():
     assert names == {ARM.base, ARM.tip}
 
 
-def test_links_of_the_second_arm_are_where_model_b_has_them():
-    found = pk.compare(ARM, lifted())
+@pytest.mark.parametrize("zeros", [np.zeros(7), [0, 0.2, 0, 0.5, 0, 0.3, 0]], ids=["", "rezeroed"])
+def test_links_of_the_second_arm_are_where_model_b_has_them_and_at_a_factor_of_0_model_a(zeros):
+    found = pk.compare(ARM, lifted().rezeroed(zeros))
     made = exaggerated(found)
-    b = chain_geometry(found.b)
+    assert made.factor > 1
+    z = [joint.zero_offset for joint in found.joints]
+    # the bones are drawn between the axes' places where a's joints are at 0
+    b = chain_geometry(found.b.rezeroed(z))
     q = ARM.random(8)
     plain = b.poses(q)
     drawn = chain_geometry(made.chain).poses(np.append(q, 1.0))
+    # at a factor of 0 they move as those of model a
+    at_zero = chain_geometry(made.chain).poses(np.append(q, 0.0))
+    first = chain_geometry(ARM).poses(q)
     radii = glyph_radii(b, np.zeros(7), 1.0)
     true = [n for n in skeleton_nodes(b, SHELL * radii, 1.0) if n.attachment.role == "first"]
-    nodes = [n for n in second_nodes(made, b, {}, (), 1.0) if n.attachment.layer == "skeleton"]
+    nodes = [n for n in second_nodes(made, {}, (), 1.0) if n.attachment.layer == "skeleton"]
     assert len(true) == 6
     pairs = zip(all_of(Triangles, true), all_of(Triangles, nodes), strict=False)
     for one, other in pairs:
         np.testing.assert_array_equal(one.vertices, other.vertices)
-        np.testing.assert_allclose(
-            drawn[other.attachment.link], plain[one.attachment.link], atol=1e-12
-        )
+        link = other.attachment.link
+        np.testing.assert_allclose(drawn[link], plain[one.attachment.link], atol=1e-12)
+        np.testing.assert_allclose(at_zero[link], first[one.attachment.link], atol=1e-12)
 
 
 def test_a_joint_that_is_called_like_the_tip_has_no_frame_in_its_place():
     chain = ARM.replace(joint_names=(*ARM.joint_names[:-1], ARM.tip))
     made = exaggerated(pk.compare(chain, chain, samples=1))
-    nodes = second_nodes(made, chain_geometry(chain), {}, {chain.tip}, 1.0)
+    nodes = second_nodes(made, {}, {chain.tip}, 1.0)
     own = [node for node in nodes if node.attachment.layer == "frames"]
     arrows = [node for node in own if isinstance(node, Triangles)]
     assert len(arrows) == 3
@@ -197,7 +210,7 @@ def test_two_models_that_coincide_are_told_apart_and_a_joint_that_differs_covers
     radii = glyph_radii(arm, np.zeros(7), 1.0)
     first = all_of(Triangles, skeleton_nodes(arm, radii, 1.0))
     made = exaggerated(pk.compare(ARM, ARM))
-    nodes = second_nodes(made, arm, {ARM.joint_names[2]: "differs"}, (), 1.0)
+    nodes = second_nodes(made, {ARM.joint_names[2]: "differs"}, (), 1.0)
     second = [n for n in nodes if isinstance(n, Triangles) and n.attachment.role == "second"]
     assert {n.attachment.opacity for n in second} == {FADED}
     red = next(n for n in nodes if isinstance(n, Triangles) and n.attachment.role == "differs")

@@ -5,7 +5,8 @@ The rigid motion e^ξ_i takes the axis of a to that of b, and the joint e^{B_i y
     e^{ξ_i (k - 1)} e^{B_i y_i} e^{-ξ_i (k - 1)}
 
 so that its axis is a's at k = 0, b's at k = 1, and differs k times as much at any k: a product of
-exponentials again, and so a chain, which the page moves as any other.
+exponentials again, and so a chain, which the page moves as any other. The zero of b's joints is where
+a's are at 0: there y_i = 0, and what is behind a joint stays in its place whatever k is.
 """
 
 from __future__ import annotations
@@ -22,7 +23,6 @@ from ....groups import se3, so3
 from ....groups.arrays import Array
 from ....groups.vectors import angular_part, linear_part, norm
 from ....model.chain import Chain
-from ..arm_parts.of_chain import chain_geometry
 
 FACTOR = "exaggeration"
 """Name of the coordinate k."""
@@ -39,31 +39,27 @@ class Exaggerated(NamedTuple):
 
     Parameters
     ----------
+    b : Chain
+        Model b as it is, its zero where a's joints are at 0.
     chain : Chain
-        Model b; its coordinates are b's and, where something differs, k.
+        The same, exaggerated; its coordinates are b's and, where something differs, k.
     bodies : tuple of int
         Numbers of b's n + 1 bodies, and last of the body that carries the tool.
     axes : tuple of int
         Numbers of the n bodies that the axes are drawn on.
     moves : (n + 1, 6) ndarray
-        Twists ξ_i of the axes and, last, of the tool, in b's base, where all of b's joints are at
-        0; rad and m.
+        Twists ξ_i of the axes and, last, of the tool, in b's base, where all joints are at 0; rad
+        and m.
     factor : float
         The k at which the largest difference can be seen; 1 where nothing differs.
     """
 
+    b: Chain
     chain: Chain
     bodies: tuple[int, ...]
     axes: tuple[int, ...]
     moves: Array
     factor: float
-
-
-def zeros_and_directions(found: Comparison) -> tuple[Array, Array]:
-    """Positions of b's joints when a's are at 0, rad or m, and their signs, ±1."""
-    zeros = np.array([joint.zero_offset for joint in found.joints])
-    signs = [-1.0 if joint.reversed else 1.0 for joint in found.joints]
-    return zeros, np.array(signs)
 
 
 def compared_rows(found: Comparison) -> list[int]:
@@ -79,32 +75,29 @@ def exaggerated(found: Comparison) -> Exaggerated:
     a = uncoupled_at_zero(found.a)
     b = found.b
     moves = np.zeros((len(b.screws) + 1, 6))
-    if not found.joints:
+    if found.base is None:
         return _assembled(b, moves, 1.0)
-    # poses in a's base of what b's joints carry at a's zeros: base e^{B_1 z_1} ... e^{B_i z_i}
-    base = np.eye(4) if found.base is None else found.base
-    zeros, _ = zeros_and_directions(found)
-    carriers = base @ chain_geometry(b).poses(zeros)
-    to_a = se3.adjoint(carriers)
-    to_b = se3.adjoint(se3.inverse(carriers))
+    b = b.rezeroed([joint.zero_offset for joint in found.joints])
+    to_a = se3.adjoint(found.base)
+    to_b = se3.adjoint(se3.inverse(found.base))
     ours = lines(a)
     centre = ours.centre
     largest = 0.0
     rows = zip(compared_rows(found), found.joints, strict=True)
     for i, (k, joint) in enumerate(rows):
         if joint.axis_differs:
-            axes = np.stack([a.screws[k], to_a[i] @ b.screws[i]])
+            axes = np.stack([a.screws[k], to_a @ b.screws[i]])
             slides = np.array([prismatic(a)[k], prismatic(b)[i]])
             move = _motion(axes, slides, ours.places[k] + centre)
             largest = max(largest, _size(move, centre, a.reach))
-            moves[i] = to_b[i] @ move
+            moves[i] = to_b @ move
     factor = 1.0
     if largest > NOISE:
         factor = visible_factor(largest, a.reach)
-    tip_of_b = carriers[-1] @ b.home
+    tip_of_b = found.base @ b.home
     tool = se3.log(tip_of_b @ se3.inverse(a.home))
     if factor * _size(tool, centre, a.reach) < a.reach:
-        moves[-1] = to_b[-1] @ tool
+        moves[-1] = to_b @ tool
     return _assembled(b, moves, factor)
 
 
@@ -145,7 +138,7 @@ def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
     n = len(b.screws)
     if factor == 1:
         bodies = (*range(n + 1), n)
-        return Exaggerated(b, bodies, tuple(range(n)), np.zeros((n + 1, 6)), 1.0)
+        return Exaggerated(b, b, bodies, tuple(range(n)), np.zeros((n + 1, 6)), 1.0)
     joints: list[_ChainJoint] = []
     own = np.eye(n + 1)
     bodies = [0]
@@ -175,6 +168,7 @@ def _assembled(b: Chain, moves: Array, factor: float) -> Exaggerated:
         tip=b.tip,
     )
     return Exaggerated(
+        b,
         chain,
         bodies=tuple(bodies),
         axes=tuple(axes[:n]),

@@ -29,16 +29,17 @@ COVER = 1.15
 """Likewise of its joints that differ, which cover those of the first."""
 
 
-def second_arm(second: Exaggerated, base: Array, factors: Array, shift: Array) -> SceneArm:
-    """The second arm, whose own coordinates are factors · q + shift, q the sliders.
+def second_arm(second: Exaggerated, base: Array, factors: Array) -> SceneArm:
+    """The second arm, whose own coordinates are factors · q, q the sliders.
 
-    Parameters: base (4, 4), its base in the world; factors (m, sliders) and shift (m,), of its own
-    coordinates but the last one k, which follows no slider.
+    Parameters: base (4, 4), its base in the world; factors (m, sliders), of its own coordinates but
+    the last one k, which follows no slider.
     """
     chain = second.chain
     geometry = chain_geometry(chain)
     tips = page_tips(chain, ())
     arm = scene_arm(chain, geometry, tips, geometry.sliders)
+    shift = np.zeros(len(factors))
     if second.factor > 1:
         no_coordinate = np.zeros(factors.shape[1])
         factors = np.vstack([factors, no_coordinate])
@@ -48,7 +49,6 @@ def second_arm(second: Exaggerated, base: Array, factors: Array, shift: Array) -
 
 def second_nodes(
     second: Exaggerated,
-    geometry: ArmGeometry,
     differing: dict[str, str],
     ends: Container[str],
     size: float,
@@ -56,9 +56,10 @@ def second_nodes(
     """Skeleton of the second arm; joints that differ with their axes and a label as the layer of
     differences.
 
-    Parameters: geometry, of the chain as it is, not exaggerated; differing, a sentence for each
-    joint that is another one, by its name; ends, names of the frames to draw; size, of the arms.
+    Parameters: differing, a sentence for each joint that is another one, by its name; ends, names
+    of the frames to draw; size, of the arms.
     """
+    geometry = chain_geometry(second.b)
     at_zero = np.zeros(len(geometry.sliders))
     radii = glyph_radii(geometry, at_zero, size)
     arm = _on_bodies(geometry, second)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
@@ -16,7 +17,6 @@ from poekin.view.scenes.two_arms.exaggerated import (
     FACTOR,
     compared_rows,
     exaggerated,
-    zeros_and_directions,
 )
 from poekin.view.scenes.two_arms.overlay import second_nodes
 
@@ -34,9 +34,14 @@ def moved(joint: int, twist: Any) -> pk.Chain:
 
 
 def own(found: Any, q: Any) -> np.ndarray:
-    """Coordinates of model b where those of a are q."""
-    zeros, directions = zeros_and_directions(found)
-    return directions * (found.a.coupling[compared_rows(found)] @ q) + zeros
+    """Coordinates of model b where those of a are q, its zero where a's are at 0."""
+    directions = [-1 if joint.reversed else 1 for joint in found.joints]
+    return directions * (found.a.coupling[compared_rows(found)] @ q)
+
+
+def as_compared(found: Any, y: Any) -> np.ndarray:
+    """Pose of b at coordinates `own`."""
+    return found.b.fk(y + [joint.zero_offset for joint in found.joints])
 
 
 def axis_at(made: Any, k: float, joint: int, q: Any) -> np.ndarray:
@@ -52,19 +57,21 @@ def axis_at(made: Any, k: float, joint: int, q: Any) -> np.ndarray:
     return pk.se3.adjoint(bodies[made.axes[joint]]) @ axis
 
 
-@given(st.integers(1, 5), st.lists(SIZES, min_size=6, max_size=6), st.integers(0, 2**31))
+@given(st.integers(1, 5), st.lists(SIZES, min_size=6, max_size=6), st.integers(0, 2**31), SIZES)
 @settings(max_examples=25, deadline=None)
-def test_at_one_it_is_b_and_at_zero_a_at_all_joint_values(joint, sizes, seed):
+@example(3, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0], 0, 1.0)
+def test_at_one_it_is_b_and_at_zero_a_at_all_joint_values(joint, sizes, seed, zero):
     twist = np.array(sizes) * [3e-3, 3e-3, 3e-3, 5e-3, 5e-3, 5e-3]
     base = pk.se3.exp([0.3, -0.2, 0.5, 0.1, 0.2, -0.4])
-    found = pk.compare(ARM, moved(joint, twist).rebased(base))
+    b = moved(joint, twist).rezeroed(zero * np.eye(7)[joint])
+    found = pk.compare(ARM, b.rebased(base))
     made = exaggerated(found)
     q = ARM.random(seed)
     y = own(found, q)
+    at_one = y if made.factor == 1 else [*y, 1.0]
+    np.testing.assert_allclose(made.chain.fk(at_one), as_compared(found, y), atol=TIGHT)
     if made.factor == 1:
-        np.testing.assert_array_equal(made.chain.fk(y), found.b.fk(y))
         return
-    np.testing.assert_allclose(made.chain.fk([*y, 1.0]), found.b.fk(y), atol=TIGHT)
     assert found.base is not None
     assert found.tool is not None
     if all(not j.axis_differs or j.number == joint + 1 for j in found.joints):
@@ -126,12 +133,15 @@ def test_models_that_agree_have_no_factor():
         assert not made.moves.any()
 
 
-def test_a_longer_link_takes_the_tool_along():
+@pytest.mark.parametrize("zeros", [np.zeros(7), np.linspace(0.2, 0.8, 7)], ids=["", "rezeroed"])
+def test_a_longer_link_takes_the_tool_along(zeros):
     longer = pk.se3.exp([0, 0, 0, 0, 0, 0.003])
     screws = ARM.screws.copy()
     screws[4:] = screws[4:] @ pk.se3.adjoint(longer).T
     found = pk.compare(ARM, ARM.replace(screws=screws, home=longer @ ARM.home))
-    made = exaggerated(found)
+    pairs = zip(found.joints, zeros.tolist(), strict=True)
+    joints = tuple(replace(joint, zero_offset=joint.zero_offset - x) for joint, x in pairs)
+    made = exaggerated(replace(found, b=found.b.rezeroed(zeros), joints=joints))
     assert made.factor > 1
     q = ARM.random(3)
     y = own(found, q)
@@ -159,11 +169,9 @@ def test_the_frame_of_a_tool_that_is_aligned_is_drawn_where_model_b_has_it():
     b = moved(3, [0, 0, 0, 0, 0, 0.003]).retooled(pk.se3.exp([0, 0, 0, 0, 0, 0.004]))
     found = pk.compare(ARM, b)
     made = exaggerated(found)
-    nodes = second_nodes(made, chain_geometry(found.b), {}, {ARM.tip}, 1.0)
+    nodes = second_nodes(made, {}, {ARM.tip}, 1.0)
     (label,) = [node for node in nodes if isinstance(node, Label)]
-    plain = second_nodes(
-        exaggerated(pk.compare(ARM, ARM)), chain_geometry(found.b), {}, {ARM.tip}, 1.0
-    )
+    plain = second_nodes(exaggerated(pk.compare(b, b)), {}, {ARM.tip}, 1.0)
     (at_rest,) = [node for node in plain if isinstance(node, Label)]
     q = ARM.random(6)
     drawn = chain_geometry(made.chain).poses(np.append(q, 1.0))[label.attachment.link]
