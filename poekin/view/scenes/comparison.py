@@ -106,15 +106,13 @@ def _sentences(found: Comparison) -> dict[str, str]:
 
 def _sentence(joint: JointComparison, found: Comparison) -> str:
     begin = f"joint {joint.number} ("
-    own = [words for words in found.findings if words.startswith(begin)]
-    return own[0] if own else joint.summary()
+    own = (words for words in found.findings if words.startswith(begin))
+    return next(own, joint.summary())
 
 
 def _moved_ends(found: Comparison) -> Iterator[str]:
     """Names of b's base and tip, where they are elsewhere than a's."""
     b = found.b
     for name, moved in ((b.base, found.base), (b.tip, found.tool)):
-        if moved is None:
-            continue
-        if np.abs(se3.log(moved)).max() > found.tol_position:
+        if moved is not None and np.abs(se3.log(moved)).max() > found.tol_position:
             yield name

@@ -83,6 +83,8 @@ def test_of_many_sentences_the_page_holds_eight_and_says_how_many_more_there_are
     )
     monkeypatch.setattr(comparison, "MOST_WORDS", len(every))
     assert comparison_scene(found).words == every
+    monkeypatch.setattr(comparison, "MOST_WORDS", len(every) - 1)
+    assert comparison_scene(found).words[-1].startswith("1 more: ")
 
 
 def test_the_table_leaves_out_what_is_the_same_of_all_joints_and_keeps_what_is_not():
@@ -135,6 +137,7 @@ def test_joints_that_cannot_be_matched_are_drawn_as_they_stand():
     scene = comparison_scene(found)
     assert not red(scene)
     assert not scene.arms[1].factors.any()
+    assert scene.exaggerated == 1
     np.testing.assert_array_equal(scene.arms[1].base, np.eye(4))
     assert scene.words[0].startswith("The models differ: 7 joints against 6")
 

@@ -17,8 +17,9 @@ from poekin.view.scenes.two_arms.exaggerated import (
     FACTOR,
     compared_rows,
     exaggerated,
+    visible_factor,
 )
-from poekin.view.scenes.two_arms.overlay import second_nodes
+from poekin.view.scenes.two_arms.overlay import second_arm, second_nodes
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 SIZES = st.floats(-1, 1)
@@ -98,6 +99,9 @@ def test_bodies_are_those_behind_the_joints_whatever_k_is():
     made = exaggerated(found)
     assert made.bodies == (0, 1, 2, 3, 6, 7, 8, 9, 9)
     assert made.axes == (0, 1, 2, 4, 6, 7, 8)
+    added = set(made.chain.joint_names) - set(ARM.joint_names)
+    assert added == {"exaggeration 4", "exaggeration 4 back"}
+    np.testing.assert_array_equal(made.chain.limits, [*found.b.limits, (0, 20)])
     rest = made.chain.joint_poses(np.zeros(8))
     at_20 = made.chain.joint_poses([0, 0, 0, 0, 0, 0, 0, 20.0])
     # a body behind a joint stands still as k grows, where all joints are at 0
@@ -178,3 +182,27 @@ def test_the_frame_of_a_tool_that_is_aligned_is_drawn_where_model_b_has_it():
     true = chain_geometry(found.b).poses(q)[-1]
     place = true @ [*at_rest.point, 1.0]
     np.testing.assert_allclose(drawn @ [*label.point, 1.0], place, atol=1e-12)
+
+
+@pytest.mark.parametrize(("length", "follows"), [(0.03, True), (0.08, False)])
+def test_a_tool_that_would_be_drawn_farther_away_than_the_arm_reaches_stays(length, follows):
+    b = moved(3, [0, 0, 0, 0, 0, 0.003]).retooled(pk.se3.exp([0, 0, 0, 0, 0, length]))
+    made = exaggerated(pk.compare(ARM, b))
+    assert made.factor == 20.0
+    assert made.moves[-1].any() == follows
+
+
+def test_factors_are_round_and_draw_a_length_as_a_tenth_of_the_size_at_most():
+    sizes = np.geomspace(1, 2000, 400)
+    factors = [visible_factor(1.0, size) for size in sizes]
+    assert set(factors) == {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0}
+    assert all(k <= max(1, 0.1 * size) for k, size in zip(factors, sizes, strict=True))
+
+
+def test_the_factor_is_the_second_arms_last_coordinate_and_follows_no_slider():
+    made = exaggerated(pk.compare(ARM, moved(3, [0, 0, 0, 0, 0, 0.05])))
+    assert made.factor == 2.0
+    factors = np.ones((7, 3))
+    arm = second_arm(made, np.eye(4), factors)
+    np.testing.assert_array_equal(arm.factors, [*factors, np.zeros(3)])
+    np.testing.assert_array_equal(arm.shift, [*np.zeros(7), 2.0])
