@@ -49,6 +49,69 @@ def test_a_solution_is_listed_once_whatever_turns_it_has():
     assert len(selected(ARM.fk(q), np.array([branch(q), branch(turned), branch(q)]))) == 1
 
 
+def test_each_solution_is_listed_and_no_other_coordinate_makes_two_alike():
+    """The wrist turned over: three coordinates differ, the first ones do not."""
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    over = q * [1, 1, 1, 1, -1, 1] + [0, 0, 0, np.pi, 0, np.pi]
+    # of the DH table of a Puma, whose last axes meet
+    np.testing.assert_allclose(ARM.fk(over), ARM.fk(q), atol=1e-12)
+    found = selected(ARM.fk(q), np.array([branch(q), branch(over), branch(q), branch(over)]))
+    np.testing.assert_allclose(found, [q, over], atol=1e-12)
+
+
+@pytest.mark.parametrize(("apart", "listed"), [(1e-3, 2), (1e-6, 2), (1e-8, 1)])
+def test_solutions_that_are_near_each_other_are_told_apart_down_to_1e_7(apart, listed):
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    found = np.empty((2, 6))
+    # both are said to be at the target, as at an elbow that is nearly straight
+    count = confirmed.select(
+        forward, lambda _, own: own.__setitem__(slice(None), T), T,
+        np.array([branch(q), branch(q + apart * np.eye(6)[2])]), SIZES, np.empty((4, 4)),
+        np.empty((14, 6)), found,
+    )  # fmt: skip
+    assert count == listed
+
+
+@pytest.mark.parametrize(("error", "confirms"), [(8e-10, 1), (1.2e-9, 0)])
+def test_a_solution_is_within_1e_9_of_the_target(error, confirms):
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    T = ARM.fk(q)
+    T[0, 3] += error * ARM.reach
+
+    def still(x, T, J):
+        forward(x, T, J)
+        J *= 1e30  # no step gets nearer
+
+    found = np.empty((1, 6))
+    work = np.empty((14, 6))
+    rows = np.array([branch(q)])
+    count = confirmed.select(still, placed, T, rows, SIZES, np.empty((4, 4)), work, found)
+    assert count == confirms
+
+
+def test_an_arm_may_have_fewer_joints():
+    five = pk.Chain(ARM.screws[:5], ARM.home, frame="space")
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5])
+
+    def forward(x, T, J):
+        T[:], J[:] = five.fk_jacobian(x, "hybrid")
+
+    def given(branch, T):
+        T[:] = five.fk(branch[:5])
+
+    sizes = np.append(np.full(5, 2 * np.pi), [five.reach, confirmed.OUTSIDE_NEARBY])
+    assert five.reach > 0.5
+    rows = np.array([branch(q + 1e-3), branch(q, -0.5)])
+    found = np.empty((2, 5))
+    T = five.fk(q)
+    count = confirmed.select(
+        forward, given, T, rows, sizes, np.empty((4, 4)), np.empty((13, 5)), found
+    )
+    assert count == 1
+    np.testing.assert_allclose(found[0], q, atol=1e-12)
+
+
 def test_a_branch_far_outside_or_of_no_number_is_passed_over():
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
     T = ARM.fk(q)
@@ -78,6 +141,16 @@ def test_out_of_reach_newton_s_rule_ends_without_a_solution(beyond):
     farthest = max(np.linalg.norm(ARM.fk(x)[:3, 3]) for x in ARM.random(0, 2000))
     T[:3, 3] *= (1.1 + beyond) * farthest / np.linalg.norm(T[:3, 3])
     assert len(selected(T, np.array([branch(q)]))) == 0
+    at, found = [], np.empty((1, 6))
+
+    def asked(x, T, J):
+        at.append(x.copy())
+        forward(x, T, J)
+
+    work = np.empty((14, 6))
+    rows = np.array([branch(q)])
+    confirmed.select(asked, placed, T, rows, SIZES, np.empty((4, 4)), work, found)
+    assert len(at) == 16
 
 
 def test_a_half_turn_away_is_no_solution():
@@ -90,10 +163,13 @@ def test_a_half_turn_away_is_no_solution():
 @pytest.mark.parametrize(("cosine", "sine"), [(0.0, 1.0), (-0.6, 0.8), (-1.0, 0.0)])
 def test_of_a_quarter_turn_and_more_the_tip_is_very_far(cosine, sine):
     T, target = np.eye(4), np.eye(4)
-    target[:2, :2] = [[cosine, -sine], [sine, cosine]]
-    assert confirmed.size(confirmed.pose_error(T, target), 1.0) > 1e300
-    target[:2, :2] = [[0.6, -0.8], [0.8, 0.6]]
-    assert confirmed.pose_error(T, target) == (0.0, 0.0, 0.8, 0.0, 0.0, 0.0)
+    for k in range(3):  # about x, y and z
+        turned = np.ix_([k - 2, k - 1], [k - 2, k - 1])
+        target[:3, :3] = np.eye(3)
+        target[:3, :3][turned] = [[cosine, -sine], [sine, cosine]]
+        assert confirmed.size(confirmed.pose_error(T, target), 1.0) > 1e300
+    target[:2, :2] = [[0.28, -0.96], [0.96, 0.28]]
+    assert confirmed.pose_error(T, target) == (0.0, 0.0, 0.96, 0.0, 0.0, 0.0)
 
 
 def test_no_coordinate_goes_farther_than_a_fifth_in_a_step():
@@ -131,8 +207,11 @@ def test_a_branch_whose_own_pose_is_the_target_is_taken_as_it_is():
         at.append(x.copy())
         forward(x, T, J)
 
+    rounded = ARM.fk(q)
+    rounded[0, 3] += 5e-15 * ARM.reach
+    others = (ARM.fk(q + 1e-5), ARM.fk(q + 1e-10))
     # what its pose is said to be decides: of another one Newton's rule is asked
-    for poses, calls in ((ARM.fk(q), 0), (ARM.fk(q + 1e-5), 1), (ARM.fk(q + 1e-10), 1)):
+    for poses, calls in ((ARM.fk(q), 0), (rounded, 0), (others[0], 1), (others[1], 1)):
         at.clear()
         count = confirmed.select(
             asked, lambda _, T, poses=poses: T.__setitem__(slice(None), poses), ARM.fk(q),
@@ -141,6 +220,24 @@ def test_a_branch_whose_own_pose_is_the_target_is_taken_as_it_is():
         assert count == 1
         assert len(at) == calls
         np.testing.assert_array_equal(found[0], q)
+
+
+def test_an_error_of_rounding_ends_the_rule_at_once():
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    found, at = np.empty((1, 6)), []
+
+    def asked(x, T, J):
+        at.append(x.copy())
+        forward(x, T, J)
+        T[0, 3] += 5e-15 * ARM.reach
+
+    work = np.empty((14, 6))
+    rows = np.array([branch(q)])
+    count = confirmed.select(
+        asked, lambda _, T: T.__setitem__(slice(None), np.eye(4)), ARM.fk(q),
+        rows, SIZES, np.empty((4, 4)), work, found,
+    )  # fmt: skip
+    assert (count, len(at)) == (1, 1)
 
 
 def test_the_rule_ends_where_errors_within_1e_9_stop_falling_and_keeps_the_least():
@@ -166,6 +263,30 @@ def test_the_rule_ends_where_errors_within_1e_9_stop_falling_and_keeps_the_least
     least = confirmed.size(confirmed.pose_error(ARM.fk(found[0]), T), ARM.reach)
     # squares of 1e-11, which rounding changes by some 1e-5 of them
     assert least == pytest.approx(min(errors), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("share", "off", "most"), [(0.47, 3e-11, 15), (0.48, 1e-9, 16), (0.55, 3e-11, 2)]
+)
+def test_within_1e_9_the_rule_goes_on_while_a_step_halves_the_error(share, off, most):
+    q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    found, at = np.empty((1, 6)), []
+
+    def asked(x, T, J):
+        at.append(x.copy())
+        forward(x, T, J)
+        J /= 1 - share  # which leaves this share of the error
+
+    work = np.empty((14, 6))
+    rows = np.array([branch(q + off)])
+    count = confirmed.select(
+        asked, lambda _, T: T.__setitem__(slice(None), np.eye(4)), ARM.fk(q),
+        rows, SIZES, np.empty((4, 4)), work, found,
+    )  # fmt: skip
+    assert count == 1
+    # 0.47 of 1.3e-10, again and again, is 1e-14 after 13 steps, 0.48 of 4e-9 after 18
+    assert most - 2 < len(at) <= most
+    assert most != 2 or np.array_equal(found[0], at[-1])
 
 
 def test_a_last_step_that_makes_the_error_larger_is_taken_back():
