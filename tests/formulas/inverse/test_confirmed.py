@@ -47,6 +47,11 @@ def test_a_solution_is_listed_once_whatever_turns_it_has():
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
     turned = q + np.array([2 * np.pi, 0, 0, -2 * np.pi, 0, 0])
     assert len(selected(ARM.fk(q), np.array([branch(q), branch(turned), branch(q)]))) == 1
+    # rounding makes this turn a little less than one
+    q[0] = 2.2
+    turned = q + 2 * np.pi * np.eye(6)[0]
+    assert turned[0] - q[0] < 2 * np.pi
+    assert len(selected(ARM.fk(q), np.array([branch(q), branch(turned)]))) == 1
 
 
 def test_each_solution_is_listed_and_no_other_coordinate_makes_two_alike():
@@ -191,12 +196,18 @@ def test_no_coordinate_goes_farther_than_a_fifth_in_a_step():
     assert np.abs(np.diff(at, axis=0)).max() <= 0.2 * (1 + 1e-14)
 
 
-@pytest.mark.parametrize("spoil", [1.01, -1.0, np.nan, 0.0])
+@pytest.mark.parametrize("spoil", [1.01, -1.0, -0.999999, np.nan, 0.0])
 def test_of_what_is_no_pose_there_is_no_solution(spoil):
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
     T = ARM.fk(q)
     T[:3, :3] *= spoil
     assert len(selected(T, np.array([branch(q)]))) == 0
+    # whatever a branch is said to be
+    count = confirmed.select(
+        forward, lambda _, own: own.__setitem__(slice(None), T), T, np.array([branch(q)]),
+        SIZES, np.empty((4, 4)), np.empty((14, 6)), np.empty((1, 6)),
+    )  # fmt: skip
+    assert count == 0
 
 
 def test_a_branch_whose_own_pose_is_the_target_is_taken_as_it_is():
