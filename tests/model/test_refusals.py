@@ -376,3 +376,17 @@ def test_compiled_arms_are_equal_that_do_the_same_in_the_same_way():
         (plain, ARM),
     ):
         assert one != other
+
+
+@pytest.mark.parametrize(
+    ("links", "joints", "words"),
+    [
+        ("base", [], "robot 'r': links must be a list, got 'base'"),
+        (7, [], "robot 'r': links must be a list, got 7"),
+        ({"base"}, [], "robot 'r': links must be a list, got {'base'}"),
+    ],
+)
+def test_a_robot_s_parts_are_lists(links, joints, words):
+    with pytest.raises(pk.errors.ModelError) as found:
+        pk.Robot("r", links, joints)
+    assert str(found.value).startswith(words)
