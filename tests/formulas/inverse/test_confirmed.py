@@ -20,16 +20,39 @@ def placed(branch, T):
     T[:] = ARM.fk(branch[:6])
 
 
-def selected(T, branches):
-    q = np.empty((len(branches), 6))
-    work = np.empty((14, 6))
+def selected(T, branches, forward=forward, placed=placed, sizes=SIZES):
+    m = len(sizes) - 2
+    q = np.empty((len(branches), m))
+    work = np.empty((m + 8, m))
     with np.errstate(all="ignore"):
-        n = confirmed.select(forward, placed, T, branches, SIZES, np.empty((4, 4)), work, q)
+        n = confirmed.select(forward, placed, T, branches, sizes, np.empty((4, 4)), work, q)
     return q[:n]
 
 
 def branch(q, margin=0.5):
     return [*q, margin]
+
+
+def said_at(pose):
+    """Poses of branches that are said to be this one, whatever they are."""
+
+    def placed(_, T):
+        T[:] = pose
+
+    return placed
+
+
+class Watched:
+    """Forward kinematics that keep where they were asked; `change` what they answer (T, J)."""
+
+    def __init__(self, change=lambda T, J: None):
+        self.at = []
+        self.change = change
+
+    def __call__(self, x, T, J):
+        self.at.append(x.copy())
+        forward(x, T, J)
+        self.change(T, J)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -68,14 +91,9 @@ def test_each_solution_is_listed_and_no_other_coordinate_makes_two_alike():
 def test_solutions_that_are_near_each_other_are_told_apart_down_to_1e_7(apart, listed):
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
     T = ARM.fk(q)
-    found = np.empty((2, 6))
     # both are said to be at the target, as at an elbow that is nearly straight
-    count = confirmed.select(
-        forward, lambda _, own: own.__setitem__(slice(None), T), T,
-        np.array([branch(q), branch(q + apart * np.eye(6)[2])]), SIZES, np.empty((4, 4)),
-        np.empty((14, 6)), found,
-    )  # fmt: skip
-    assert count == listed
+    rows = np.array([branch(q), branch(q + apart * np.eye(6)[2])])
+    assert len(selected(T, rows, placed=said_at(T))) == listed
 
 
 @pytest.mark.parametrize(("error", "confirms"), [(8e-10, 1), (1.2e-9, 0)])
@@ -84,15 +102,10 @@ def test_a_solution_is_within_1e_9_of_the_target(error, confirms):
     T = ARM.fk(q)
     T[0, 3] += error * ARM.reach
 
-    def still(x, T, J):
-        forward(x, T, J)
+    def still(T, J):
         J *= 1e30  # no step gets nearer
 
-    found = np.empty((1, 6))
-    work = np.empty((14, 6))
-    rows = np.array([branch(q)])
-    count = confirmed.select(still, placed, T, rows, SIZES, np.empty((4, 4)), work, found)
-    assert count == confirms
+    assert len(selected(T, np.array([branch(q)]), Watched(still))) == confirms
 
 
 def test_an_arm_may_have_fewer_joints():
@@ -108,13 +121,8 @@ def test_an_arm_may_have_fewer_joints():
     sizes = np.append(np.full(5, 2 * np.pi), [five.reach, confirmed.OUTSIDE_NEARBY])
     assert five.reach > 0.5
     rows = np.array([branch(q + 1e-3), branch(q, -0.5)])
-    found = np.empty((2, 5))
-    T = five.fk(q)
-    count = confirmed.select(
-        forward, given, T, rows, sizes, np.empty((4, 4)), np.empty((13, 5)), found
-    )
-    assert count == 1
-    np.testing.assert_allclose(found[0], q, atol=1e-12)
+    (found,) = selected(five.fk(q), rows, forward, given, sizes)
+    np.testing.assert_allclose(found, q, atol=1e-12)
 
 
 def test_a_branch_far_outside_or_of_no_number_is_passed_over():
@@ -145,17 +153,9 @@ def test_out_of_reach_newton_s_rule_ends_without_a_solution(beyond):
     T = ARM.fk(q)
     farthest = max(np.linalg.norm(ARM.fk(x)[:3, 3]) for x in ARM.random(0, 2000))
     T[:3, 3] *= (1.1 + beyond) * farthest / np.linalg.norm(T[:3, 3])
-    assert len(selected(T, np.array([branch(q)]))) == 0
-    at, found = [], np.empty((1, 6))
-
-    def asked(x, T, J):
-        at.append(x.copy())
-        forward(x, T, J)
-
-    work = np.empty((14, 6))
-    rows = np.array([branch(q)])
-    confirmed.select(asked, placed, T, rows, SIZES, np.empty((4, 4)), work, found)
-    assert len(at) == 16
+    asked = Watched()
+    assert len(selected(T, np.array([branch(q)]), asked)) == 0
+    assert len(asked.at) == 16
 
 
 def test_a_half_turn_away_is_no_solution():
@@ -179,21 +179,12 @@ def test_of_a_quarter_turn_and_more_the_tip_is_very_far(cosine, sine):
 
 def test_no_coordinate_goes_farther_than_a_fifth_in_a_step():
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
-    at, found = [], np.empty((1, 6))
-
-    def asked(x, T, J):
-        at.append(x.copy())
-        forward(x, T, J)
-
-    def given(branch, T):
-        T[:] = np.eye(4)
-
-    rows = np.array([branch(q + 0.5 * np.eye(6)[0])])
-    work = np.empty((14, 6))
-    confirmed.select(asked, given, ARM.fk(q), rows, SIZES, np.empty((4, 4)), work, found)
+    asked = Watched()
+    selected(ARM.fk(q), np.array([branch(q + 0.5 * np.eye(6)[0])]), asked, said_at(np.eye(4)))
+    steps = np.abs(np.diff(asked.at, axis=0))
     # half a radian away the first step is one that is shortened
-    assert np.abs(at[1] - at[0]).max() == pytest.approx(0.2, rel=1e-14)
-    assert np.abs(np.diff(at, axis=0)).max() <= 0.2 * (1 + 1e-14)
+    assert steps[0].max() == pytest.approx(0.2, rel=1e-14)
+    assert steps.max() <= 0.2 * (1 + 1e-14)
 
 
 @pytest.mark.parametrize("spoil", [1.01, -1.0, -0.999999, np.nan, 0.0])
@@ -202,76 +193,44 @@ def test_of_what_is_no_pose_there_is_no_solution(spoil):
     T = ARM.fk(q)
     T[:3, :3] *= spoil
     assert len(selected(T, np.array([branch(q)]))) == 0
-    # whatever a branch is said to be
-    count = confirmed.select(
-        forward, lambda _, own: own.__setitem__(slice(None), T), T, np.array([branch(q)]),
-        SIZES, np.empty((4, 4)), np.empty((14, 6)), np.empty((1, 6)),
-    )  # fmt: skip
-    assert count == 0
+    # even where a branch is said to be there
+    assert len(selected(T, np.array([branch(q)]), placed=said_at(T))) == 0
 
 
 def test_a_branch_whose_own_pose_is_the_target_is_taken_as_it_is():
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
-    found, at = np.empty((1, 6)), []
-
-    def asked(x, T, J):
-        at.append(x.copy())
-        forward(x, T, J)
-
     rounded = ARM.fk(q)
     rounded[0, 3] += 5e-15 * ARM.reach
     others = (ARM.fk(q + 1e-5), ARM.fk(q + 1e-10))
     # what its pose is said to be decides: of another one Newton's rule is asked
     for poses, calls in ((ARM.fk(q), 0), (rounded, 0), (others[0], 1), (others[1], 1)):
-        at.clear()
-        count = confirmed.select(
-            asked, lambda _, T, poses=poses: T.__setitem__(slice(None), poses), ARM.fk(q),
-            np.array([branch(q)]), SIZES, np.empty((4, 4)), np.empty((14, 6)), found,
-        )  # fmt: skip
-        assert count == 1
-        assert len(at) == calls
-        np.testing.assert_array_equal(found[0], q)
+        asked = Watched()
+        (found,) = selected(ARM.fk(q), np.array([branch(q)]), asked, said_at(poses))
+        assert len(asked.at) == calls
+        np.testing.assert_array_equal(found, q)
 
 
 def test_an_error_of_rounding_ends_the_rule_at_once():
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
-    found, at = np.empty((1, 6)), []
 
-    def asked(x, T, J):
-        at.append(x.copy())
-        forward(x, T, J)
+    def rounded(T, J):
         T[0, 3] += 5e-15 * ARM.reach
 
-    work = np.empty((14, 6))
-    rows = np.array([branch(q)])
-    count = confirmed.select(
-        asked, lambda _, T: T.__setitem__(slice(None), np.eye(4)), ARM.fk(q),
-        rows, SIZES, np.empty((4, 4)), work, found,
-    )  # fmt: skip
-    assert (count, len(at)) == (1, 1)
+    asked = Watched(rounded)
+    assert len(selected(ARM.fk(q), np.array([branch(q)]), asked, said_at(np.eye(4)))) == 1
+    assert len(asked.at) == 1
 
 
 def test_the_rule_ends_where_errors_within_1e_9_stop_falling_and_keeps_the_least():
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
     T = ARM.fk(q)
     T[:3, :3] *= 1.0 + 1e-11  # no rotation: its error stays above rounding
-    found, at = np.empty((1, 6)), []
-
-    def asked(x, T, J):
-        at.append(x.copy())
-        forward(x, T, J)
-
-    def given(branch, T):
-        T[:] = np.eye(4)
-
-    rows = np.array([branch(q + 1e-3)])
-    work = np.empty((14, 6))
-    count = confirmed.select(asked, given, T, rows, SIZES, np.empty((4, 4)), work, found)
-    assert count == 1
+    asked = Watched()
+    (found,) = selected(T, np.array([branch(q + 1e-3)]), asked, said_at(np.eye(4)))
     # Newton's rule squares 1e-3 until rounding is met, and one step more tells that it is
-    assert len(at) <= 5
-    errors = [confirmed.size(confirmed.pose_error(ARM.fk(x), T), ARM.reach) for x in at]
-    least = confirmed.size(confirmed.pose_error(ARM.fk(found[0]), T), ARM.reach)
+    assert len(asked.at) <= 5
+    errors = [confirmed.size(confirmed.pose_error(ARM.fk(x), T), ARM.reach) for x in asked.at]
+    least = confirmed.size(confirmed.pose_error(ARM.fk(found), T), ARM.reach)
     # squares of 1e-11, which rounding changes by some 1e-5 of them
     assert least == pytest.approx(min(errors), rel=1e-3)
 
@@ -281,47 +240,33 @@ def test_the_rule_ends_where_errors_within_1e_9_stop_falling_and_keeps_the_least
 )
 def test_within_1e_9_the_rule_goes_on_while_a_step_halves_the_error(share, off, most):
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
-    found, at = np.empty((1, 6)), []
 
-    def asked(x, T, J):
-        at.append(x.copy())
-        forward(x, T, J)
+    def slower(T, J):
         J /= 1 - share  # which leaves this share of the error
 
-    work = np.empty((14, 6))
-    rows = np.array([branch(q + off)])
-    count = confirmed.select(
-        asked, lambda _, T: T.__setitem__(slice(None), np.eye(4)), ARM.fk(q),
-        rows, SIZES, np.empty((4, 4)), work, found,
-    )  # fmt: skip
-    assert count == 1
+    asked = Watched(slower)
+    (found,) = selected(ARM.fk(q), np.array([branch(q + off)]), asked, said_at(np.eye(4)))
     # 0.47 of 1.3e-10, again and again, is 1e-14 after 13 steps, 0.48 of 4e-9 after 18
-    assert most - 2 < len(at) <= most
-    assert most != 2 or np.array_equal(found[0], at[-1])
+    assert most - 2 < len(asked.at) <= most
+    # a step that has not halved the error, but made it smaller, is kept
+    assert most != 2 or np.array_equal(found, asked.at[-1])
 
 
 def test_a_last_step_that_makes_the_error_larger_is_taken_back():
     q = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
     T = ARM.fk(q)
-    found, at, errors = np.empty((1, 6)), [], []
+    errors = []
 
-    def asked(x, Tx, J):
-        at.append(x.copy())
-        forward(x, Tx, J)
+    def farther(Tx, J):
         # never nearer than 1e-11, and once there it is farther
         Tx[0, 3] += 1e-11 * ARM.reach * (1 + (min(errors, default=1.0) < 1e-9))
         errors.append(np.sqrt(confirmed.size(confirmed.pose_error(Tx, T), ARM.reach)))
 
-    def given(branch, T):
-        T[:] = np.eye(4)
-
-    work = np.empty((14, 6))
-    rows = np.array([branch(q + 1e-3)])
-    count = confirmed.select(asked, given, T, rows, SIZES, np.empty((4, 4)), work, found)
-    assert count == 1
+    asked = Watched(farther)
+    (found,) = selected(T, np.array([branch(q + 1e-3)]), asked, said_at(np.eye(4)))
     assert errors[-1] > errors[-2]
-    assert not np.array_equal(at[-1], at[-2])
-    np.testing.assert_array_equal(found[0], at[-2])
+    assert not np.array_equal(asked.at[-1], asked.at[-2])
+    np.testing.assert_array_equal(found, asked.at[-2])
 
 
 def test_a_size_is_the_sum_of_six_squares_lengths_by_the_reach():
