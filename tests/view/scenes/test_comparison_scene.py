@@ -8,6 +8,7 @@ import pytest
 import poekin as pk
 from poekin.view.nodes import Label, Triangles
 from poekin.view.scenes import comparison
+from poekin.view.scenes.arm import arm_scene, arm_size
 from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.arm_parts.skeleton import glyph_radii, skeleton_nodes
 from poekin.view.scenes.comparison import LEGEND, comparison_scene
@@ -138,6 +139,10 @@ def test_joints_that_cannot_be_matched_are_drawn_as_they_stand():
     assert not red(scene)
     assert not scene.arms[1].factors.any()
     assert scene.exaggerated == 1
+    # the scene is as large as the larger one, whichever it is
+    size = comparison_scene(pk.compare(other, ARM)).size
+    assert size == arm_size(chain_geometry(ARM), np.zeros(7)) > arm_scene(other).size
+    assert scene.size == arm_scene(ARM).size > arm_size(chain_geometry(other), np.zeros(6))
     np.testing.assert_array_equal(scene.arms[1].base, np.eye(4))
     assert scene.words[0].startswith("The models differ: 7 joints against 6")
 

@@ -137,21 +137,32 @@ def test_models_that_agree_have_no_factor():
         assert not made.moves.any()
 
 
-@pytest.mark.parametrize("zeros", [np.zeros(7), np.linspace(0.2, 0.8, 7)], ids=["", "rezeroed"])
-def test_a_longer_link_takes_the_tool_along(zeros):
+@pytest.mark.parametrize(
+    ("zeros", "base"),
+    [
+        (np.zeros(7), np.eye(4)),
+        (np.linspace(0.2, 0.8, 7), np.eye(4)),
+        (np.zeros(7), pk.se3.exp([0.3, -0.2, 0.5, 0.1, 0.2, -0.4])),
+    ],
+    ids=["", "rezeroed", "rebased"],
+)
+def test_a_longer_link_takes_the_tool_along(zeros, base):
     longer = pk.se3.exp([0, 0, 0, 0, 0, 0.003])
     screws = ARM.screws.copy()
     screws[4:] = screws[4:] @ pk.se3.adjoint(longer).T
     found = pk.compare(ARM, ARM.replace(screws=screws, home=longer @ ARM.home))
     pairs = zip(found.joints, zeros.tolist(), strict=True)
     joints = tuple(replace(joint, zero_offset=joint.zero_offset - x) for joint, x in pairs)
-    made = exaggerated(replace(found, b=found.b.rezeroed(zeros), joints=joints))
+    b = found.b.rezeroed(zeros).rebased(pk.se3.inverse(base))
+    assert found.base is not None
+    aligned = found.base @ base
+    made = exaggerated(replace(found, b=b, joints=joints, base=aligned))
     assert made.factor > 1
     q = ARM.random(3)
     y = own(found, q)
     # the axes along the link are the same lines, and the tool is where the link's end is
-    np.testing.assert_allclose(made.chain.fk([*y, 0.0]), ARM.fk(q), atol=1e-9)
-    far = made.chain.fk([*y, 10.0])[:3, 3] - ARM.fk(q)[:3, 3]
+    np.testing.assert_allclose(aligned @ made.chain.fk([*y, 0.0]), ARM.fk(q), atol=1e-9)
+    far = (aligned @ made.chain.fk([*y, 10.0]) - ARM.fk(q))[:3, 3]
     assert np.linalg.norm(far) == pytest.approx(0.03, rel=1e-6)
 
 
