@@ -4,6 +4,7 @@ exists, and no formula file is missing.
 
 from __future__ import annotations
 
+import math
 import pkgutil
 import re
 from importlib import import_module
@@ -14,6 +15,8 @@ import pytest
 import poekin as pk
 from poekin import formulas
 from poekin.formulas import BESIDE, PAPER, Place
+from poekin.formulas.inverse.pose_error import angle
+from poekin.formulas.lie.coefficients import d_of
 from tools import docs_paper
 
 TESTS = Path(__file__).resolve().parents[1]
@@ -101,6 +104,16 @@ def test_the_formula_s_file_names_its_place_in_the_paper(row):
 def test_a_name_that_does_not_exist_is_seen(change, fault):
     row = next(row for row in PAPER if row.paper == "Lemma 3")
     assert fault in faults(row._replace(**change))
+
+
+def test_the_equations_that_are_numbers_say_what_the_formulas_compute():
+    said = {row.paper: row.equation for row in PAPER}
+    terms = said["Lemma 4, the coefficient"].removeprefix("D = ").replace(") cot", ") * cot")
+    d = eval(terms.replace("^", "**"), {"phi": 2.5, "cot": lambda x: 1 / math.tan(x)})
+    assert abs(d_of(2.5**2) - d) < 1e-15
+    low, high = said["Remark 2"].removeprefix("|log R| = phi, ").split(" <= phi <= ")
+    assert (float(low), high) == (angle((0.0, 0.0, 0.0)), "pi")
+    assert angle((0.0, 0.0, 2.0)) == math.pi
 
 
 def test_the_page_has_a_row_for_each():

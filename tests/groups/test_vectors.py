@@ -23,6 +23,7 @@ def test_norms_are_the_lengths_along_the_last_axis():
     assert (norms(VECTORS) == [5.0, 13.0]).all()
     assert norm(VECTORS[0]) == 5.0
     assert isinstance(norm(VECTORS[0]), float)
+    assert (norms(np.stack([VECTORS, 2 * VECTORS])) == [[5.0, 13.0], [10.0, 26.0]]).all()
 
 
 def test_normalised_vectors_are_divided_by_their_lengths():

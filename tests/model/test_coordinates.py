@@ -11,6 +11,7 @@ import pytest
 
 import poekin as pk
 from poekin.errors import InputError, ShapeError, UnknownName
+from poekin.model.coordinates import one_configuration
 
 ARM = pk.load("ur5e").chain(tip="tool0")
 NAMES = ARM.q_names
@@ -112,3 +113,11 @@ def test_a_table_without_labels_is_an_array_and_a_column_is_the_values_of_one_co
 def test_labels_and_masks_that_do_not_fit_are_refused(q, error, message):
     with pytest.raises(error, match=message):
         ARM.fk(q)
+
+
+@pytest.mark.parametrize("q", [[1.0, np.inf, 0.0], [[1.0, 2.0, 0.0]]], ids=["infinite", "a batch"])
+def test_one_configuration_is_as_many_finite_numbers_as_there_are_names(q):
+    with pytest.raises(InputError) as found:
+        one_configuration(q, ("a", "b", "c"))
+    assert str(found.value) == f"q: expected one finite configuration (3,), got {q}"
+    assert one_configuration({"c": 3, "b": 2, "a": 1}, ("a", "b", "c")).tolist() == [1, 2, 3]

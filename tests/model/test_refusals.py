@@ -384,6 +384,7 @@ def test_compiled_arms_are_equal_that_do_the_same_in_the_same_way():
         ("base", [], "robot 'r': links must be a list, got 'base'"),
         (7, [], "robot 'r': links must be a list, got 7"),
         ({"base"}, [], "robot 'r': links must be a list, got {'base'}"),
+        (["base"], ["pan"], "robot 'r': joints must be Joint objects, got 'pan'"),
     ],
 )
 def test_a_robot_s_parts_are_lists(links, joints, words):

@@ -134,7 +134,7 @@ def test_what_is_far_from_a_unit_screw_is_not_normalised():
         r"^screws\[1\]: expected \|omega\| = 1, or omega = 0 and .* got \[0\.0, 0\.0, 1\.011, 0\.0,"
     )
     with pytest.raises(ScrewError, match=far):
-        pk.screw.normalised([line, [0, 0, 1.011, 0, 0, 0]])
+        pk.screw.normalised([line, [0, 0, 1.011, 0, 0, 0], line, [0, 0, 2, 0, 0, 0]])
     with pytest.raises(
         ScrewError, match=r"^screws: .* within 0\.01; got \[0\.0, 0\.0, 0\.0, 0\.0, 0\.0, 0\.0\]"
     ):

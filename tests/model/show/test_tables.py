@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 import poekin as pk
-from poekin.model.show.tables import ROWS
+from poekin.model.show.tables import ROWS, numbers
 
 
 def cells(html):
@@ -37,6 +37,11 @@ def test_a_robot_shows_what_its_joints_connect_and_follow():
         ["left", "prismatic", "hand", "l", "0 … 0.04", ""],
         ["right", "prismatic", "hand", "r", "", "left"],
     ]
+
+
+def test_numbers_are_shown_to_four_digits_and_without_the_sign_of_zero():
+    assert numbers([-0.0, 0.0, -1.23456]) == "0, 0, -1.235"
+    assert numbers([1e-7, -0.0], between="; ") == "1e-07; 0"
 
 
 def test_a_long_table_says_how_many_rows_there_are():

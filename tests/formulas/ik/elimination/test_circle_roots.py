@@ -165,6 +165,7 @@ def test_a_step_is_the_last_where_half_of_f_s_second_derivative_leaves_little(st
         assert circle_roots.is_found(step, sign * 1.01 * most, steepest)
         assert not circle_roots.is_found(-step, sign * 0.99 * most, steepest)
     assert circle_roots.is_found(1e-15, 0.0, steepest)
+    assert circle_roots.is_found(-4e-16, 0.0, steepest)
     assert not circle_roots.is_found(1.1e-15, 0.0, steepest)
 
 

@@ -116,6 +116,13 @@ def test_joints_move_in_a_plane_where_slides_are_across_axes_that_are_parallel(
     assert module.planar(joints, TIGHT) is tight
 
 
+def test_axes_tilted_by_as_much_as_is_allowed_are_parallel_in_a_plane_of_slides():
+    tilt = float(np.linalg.norm(np.cross(Z, OFF)))
+    joints = [LoopJoint(h, np.zeros(3), h is X) for h in (Z, OFF, X)]
+    assert module.planar(joints, Tolerance(tilt, 0.0))
+    assert not module.planar(joints, Tolerance(0.99 * tilt, 0.0))
+
+
 def test_joints_are_lines_at_the_zero_of_the_coordinates():
     chain = pk.load("stanford").chain()
     joints = module.joints_of(chain)
