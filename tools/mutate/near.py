@@ -280,8 +280,9 @@ NEAR = {
     "testing/conform/urdf_cases": f"own testing/small_urdf {_CASES}",
 }
 
-# Claims about many modules, which are met last.
+# Claims about many modules, which are met last; where nothing is said, those of all.
+EVERYWHERE = "defaults frozen"
 LAST = {
-    "solve/": "defaults solve/shapes",
-    "solve/calibration/": "defaults solve/shapes solve/brief",
+    "solve/": f"{EVERYWHERE} solve/shapes",
+    "solve/calibration/": f"{EVERYWHERE} solve/shapes solve/brief",
 }

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from . import names
 from .mutants import PACKAGE, paths, room
-from .near import BY_ARMS, CHAINS, DH, GROUPS, LAST, NEAR
+from .near import BY_ARMS, CHAINS, DH, EVERYWHERE, GROUPS, LAST, NEAR
 
 ROOT = Path(__file__).resolve().parents[2]
 TESTS = ROOT / "tests"
@@ -139,7 +139,7 @@ def _kernels_in(path: str) -> Iterator[str]:
 def near(path: str) -> list[list[str]]:
     """Arguments of pytest's first two runs for a module: the quickest file, and the others."""
     files = names.longest(NEAR, path, _own_tests(path)) or _called_like(path)
-    last = names.longest(LAST, path) or [names.test("defaults")]
+    last = names.longest(LAST, path) or [names.test(name) for name in EVERYWHERE.split()]
     files = list(dict.fromkeys([*files, *last]))
     return [[*part, *_apart(path)] for part in (files[:1], files[1:]) if part]
 

@@ -529,6 +529,15 @@ def test_an_edit_of_what_is_compiled_makes_a_new_key(tmp_path, file, rooms):
         assert (source_key(copy, which) != key) is (which is rooms)
 
 
+def test_another_name_of_a_file_makes_a_new_key(tmp_path):
+    (tmp_path / "engine").mkdir()
+    file = tmp_path / "engine" / "a.py"
+    file.write_text("A = 1\n")
+    before = source_key(tmp_path, ("engine",))
+    file.rename(file.with_name("b.py"))
+    assert before != source_key(tmp_path, ("engine",)) is not None
+
+
 def test_an_edit_even_while_a_session_is_open_changes_the_result_of_the_next_process_alone(
     home, tmp_path
 ):

@@ -91,6 +91,13 @@ def test_operands_have_brackets_where_the_order_of_operations_asks_for_them():
     assert word("^", CValue(WORD, "a * b", 0), CValue(WORD, "c")).text == "(a * b) ^ c"
 
 
+def test_an_arm_tells_items_that_are_known_and_fixed():
+    fixed, known = scalar(2, INT, True), scalar(3, INT)
+    unknown = CValue(INT, "i", fixed=True)
+    pair = CValue(CTuple((INT,) * 3), "p", parts=(fixed, known, unknown))
+    assert pair.told == (fixed, None, None)
+
+
 def test_types_that_hold_values_of_both():
     pair, other = CTuple((DOUBLE, INT)), CTuple((INT, INT))
     assert unify(BOOL, INT) == INT

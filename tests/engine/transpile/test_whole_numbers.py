@@ -26,6 +26,7 @@ def whole_numbers(a, out):
     out[4] = i // -3
     out[5] = math.floor(a[2])
     out[6] = math.floor(-a[2])
+    out[7] = math.sqrt(j * j + 1)
 
 
 def words(a, out):

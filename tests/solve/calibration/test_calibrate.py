@@ -66,6 +66,25 @@ def test_exact_poses_give_the_exact_arm(letters, seed):
     )
 
 
+def test_a_covariance_that_is_too_small_is_warned_of_and_one_too_large_is_remarked():
+    q, rng = PUMA.random(0, 40), np.random.default_rng(0)
+    p = PUMA.fk(q)[:, :3, 3] + rng.normal(scale=1e-4, size=(40, 3))
+    said = []
+    for deviation in (1e-5, 1e-4, 1e-3):
+        points = Points(p, covariance=deviation**2 * np.eye(3))
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            found = calibrate(PUMA, q, points, parameters=("offsets",), folds=0)
+        assert [str(w.message) for w in caught] == list(found.warnings)
+        said.append(
+            [
+                ["times as large as covariance= says" in words for words in told]
+                for told in (found.warnings, found.remarks)
+            ]
+        )
+    assert said == [[[True], []], [[], []], [[], [True]]]
+
+
 @pytest.mark.parametrize("tilt", [1e-4, 1e-3, 1e-2])
 def test_a_tilted_axis_is_found_in_five_steps_to_1e_12_m(tilt):
     """Axes 2 and 3 of a Puma are parallel: in their common plane a tilt throws DH's d to infinity."""

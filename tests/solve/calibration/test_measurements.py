@@ -415,6 +415,8 @@ def test_an_unknown_frame_has_six_parameters_however_it_is_said():
                 "shared" if isinstance(said, str) else None,
             )
             assert (unknown.guess is None) == (said is not X)
+    poses = Poses(T, frame="unknown", tool="unknown").unknown_frames
+    assert [(u.name, u.size) for u in poses] == [("T_base_device", 6), ("T_tip_probe", 6)]
     assert Distances([1.0]).unknown_frames[0].size == 3
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from poekin.formulas.ik.elimination import circle_roots
 from poekin.model import screw
 from poekin.model.chain import Chain
-from poekin.solve.ik_all.elimination import EliminatedRows, _join, _table
+from poekin.solve.ik_all.elimination import EliminatedRows, Elimination, _join, _table
 
 
 def rows(*solutions: tuple[float, float]) -> EliminatedRows:
@@ -28,6 +29,10 @@ def test_what_another_table_finds_is_added_where_there_is_room():
     full = rows((0.5, 0.3), (1.0, 0.1), (2.0, 0.0))
     _join(full, np.array([0]), rows((1.5, 0.2)), np.ones(1, bool))
     assert full.branches[0, :, 0].tolist() == [0.5, 1.0, 2.0]
+
+
+def test_there_is_room_for_the_sixteen_solutions_that_six_revolute_joints_have_at_most():
+    assert Elimination.most == 16 <= circle_roots.ROOM
 
 
 @pytest.mark.parametrize(("scale", "size"), [(0.0, 1.0), (1.0, 3.0), (0.5, 1.5)])

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import re
 import sys
-from dataclasses import fields
+from dataclasses import fields, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -21,6 +21,7 @@ from poekin.groups import se3
 from poekin.solve.calibration import Parameter, Poses, Term, calibrate, load
 from poekin.solve.calibration.measurements.simulated import simulated
 from poekin.solve.calibration.report import toml_checks
+from poekin.solve.calibration.selection.term_gain import TermGain
 
 SCREWS = [
     pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([0, 0.6, 0.8]),
@@ -135,6 +136,15 @@ def test_a_calibration_comes_back_to_the_last_bit(found, tmp_path):
     assert again.error_model.reference == found.error_model.reference
     again.save(tmp_path / "again.toml")
     assert (tmp_path / "again.toml").read_text() == (tmp_path / "arm.toml").read_text()
+
+
+def test_what_a_term_gains_comes_back_where_it_could_not_be_told_too(saved):
+    terms = (
+        TermGain("drift", True, 1, float("nan"), float("nan")),
+        TermGain("lag", False, 5, -2e-3, 1e-4),
+    )
+    replace(case("poses"), terms=terms).save(saved)
+    assert str(load(saved).terms) == str(terms)
 
 
 def test_what_the_residuals_showed_is_in_the_file_with_its_chance(tmp_path):
