@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from poekin.engine.straight_line.program import Angles, program
-from poekin.engine.straight_line.trace import FOLD_TOLERANCE, Graph, Traced
+from poekin.engine.straight_line.trace import FOLD_TOLERANCE, Graph, Traced, folded
 
 EPS = 1e-16
 
@@ -19,6 +19,14 @@ def traced(count=3):
 def cost(graph, *outputs):
     count = program(graph, Angles(graph), outputs).count
     return count.multiplications, count.additions
+
+
+@pytest.mark.parametrize("exact", [-1.0, 0.0, 1.0])
+def test_a_constant_is_0_or_1_or_minus_1_where_it_is_but_for_rounding(exact):
+    for off in (0.0, 2.0**-53, -(2.0**-53), FOLD_TOLERANCE):
+        assert folded(exact + off) == exact
+    assert folded(exact + 4 * FOLD_TOLERANCE) == exact + 4 * FOLD_TOLERANCE
+    assert folded(2.0 - FOLD_TOLERANCE) == 2.0 - FOLD_TOLERANCE
 
 
 @pytest.mark.parametrize("zero", [0.0, -0.0, 0, FOLD_TOLERANCE, -FOLD_TOLERANCE])

@@ -241,6 +241,22 @@ def test_of_each_construct_there_is_one_function_with_its_docstring_above():
     assert "/* Tuples of tuples, of truth values, and of several types. */\nstatic " in text
 
 
+def left_early(a):
+    if len(a) > 2:
+        return a[0]
+    return a[1]
+
+
+def leaves_early(a, out):
+    out[0] = left_early(a)
+
+
+def test_what_stands_behind_a_return_that_is_met_always_is_left_out():
+    text = text_of(leaves_early)
+    assert "return a[0];" in text
+    assert "a[1]" not in text
+
+
 def test_nothing_is_multiplied_by_one_or_moved_by_none():
     text = text_of(*CONSTRUCTS)
     assert re.findall(r"[^\n]*(?:\b1 \* |\+ 0\b(?!\.))[^\n]*", text) == []

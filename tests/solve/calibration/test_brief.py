@@ -7,12 +7,16 @@ import pytest
 
 import poekin as pk
 from poekin.groups import se3
-from poekin.solve.calibration import JointSweep, from_circles, from_fk
+from poekin.solve.calibration import JointSweep, Points, from_circles, from_fk
 from poekin.solve.calibration.terms.conditions import at_rest
 
 ARM = pk.load("ur5").chain()
 MADE = pk.calibration.simulated(ARM, 30, kind="points", noise=(1e-4, 1e-4), seed=2)
 FOUND = pk.calibrate(ARM, MADE.q, MADE.measurements, folds=2)
+LEFT_OUT = pk.calibrate(
+    ARM, MADE.q, Points(MADE.measurements.p[5:], MADE.measurements.points, rows=range(5, 30)),
+    loss="huber", folds=0, on_rank_deficiency="fix",
+)  # fmt: skip
 COMMAND = FOUND.compensate(ARM.fk(MADE.q[0]), nearest_to=MADE.q[0])
 
 
@@ -48,6 +52,7 @@ CASES = {
     "<Simulated: 30 simulated Points, ": MADE,
     "<Choice: 6 of 20 configurations for ": pk.choose_poses(ARM, 6, 20, n_random=2),
     "<FitEvidence: 30 measurements at 30 readings, linear loss>": FOUND.evidence,
+    "<FitEvidence: 25 measurements at 30 readings, huber loss>": LEFT_OUT.evidence,
     "<Estimate: 30 parameters, 0 unknown frames>": FOUND.estimate,
     "<FromFk: ": from_fk(ARM, MADE.q, ARM.fk(MADE.q)),
 }  # fmt: skip

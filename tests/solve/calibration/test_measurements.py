@@ -420,6 +420,15 @@ def test_an_unknown_frame_has_six_parameters_however_it_is_said():
     assert Distances([1.0]).unknown_frames[0].size == 3
 
 
+def test_lengths_of_any_number_of_points_and_of_poses_are_taken_in_another_unit():
+    five = Points(np.ones((2, 5, 3)), np.zeros((5, 3)))
+    assert (five.scaled(1e-3).p == 1e-3).all()
+    poses = Poses(T)
+    assert (poses.scaled(1e-3).T[:, :3, 3] == 1e-3 * T[:, :3, 3]).all()
+    assert (poses.scaled(1e-3).T[:, :3, :3] == T[:, :3, :3]).all()
+    assert (poses.T == T).all()
+
+
 def test_a_covariance_is_symmetric_or_not_by_its_own_diagonal():
     C = 1e-10 * np.array([[1.0, 0.05, 0], [0.04, 1, 0], [0, 0, 4]])
     with pytest.raises(InputError, match=r"covariance is not symmetric, by 0\.01 of its diagonal$"):

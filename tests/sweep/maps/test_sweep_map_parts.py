@@ -123,3 +123,21 @@ def test_cells_that_no_sample_fell_into_have_no_measure_and_no_sample(keep):
     if found.attained is not None:
         np.testing.assert_array_equal(found.attained == -1, found.counts == 0)
     assert Totals(Sweep(ARM, SAMPLES, CELLS)).best.size == 0
+
+
+@pytest.mark.parametrize(
+    ("what", "place"),
+    [
+        ("screws", (1, 4)),
+        ("home", (0, 3)),
+        ("coupling", (1, 0)),
+        ("offset", 1),
+        ("limits", (0, 1)),
+    ],
+)
+def test_sweeps_of_arms_that_differ_in_one_number_have_other_keys(what, place):
+    key = Sweep(ARM, SAMPLES, CELLS).key()
+    assert Sweep(two_links(), SAMPLES, CELLS).key() == key
+    numbers = getattr(ARM, what).copy()
+    numbers[place] -= 2.0**-40
+    assert Sweep(ARM.replace(**{what: numbers}), SAMPLES, CELLS).key() != key

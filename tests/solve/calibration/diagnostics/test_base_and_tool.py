@@ -10,11 +10,13 @@ import pytest
 
 import poekin as pk
 from poekin.groups import se3
+from poekin.model import screw
 from poekin.solve.calibration.diagnostics.base_and_tool import (
     _fixed,
     base_and_tool,
     pose_points,
 )
+from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.report import pendant
 
 ARM = pk.load("ur5").chain()
@@ -65,6 +67,22 @@ def test_a_base_and_a_tool_that_were_moved_are_found(P, Q, of_poses):
     np.testing.assert_allclose(found.base, P, atol=1e-12)
     np.testing.assert_allclose(found.tool, Q, atol=1e-12)
     assert found.before > 0.05
+    assert found.after < 1e-12
+
+
+def test_a_tool_turned_by_half_a_turn_is_found_on_an_arm_of_two_joints():
+    # from where the search begins it ends 0.77 m off
+    axes = [screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute([0, 1, 0], [0.3, 0, 0.5])]
+    arm = pk.Chain.from_space(axes, se3.exp([0, 0, 0, 0.8, 0, 0.5]))
+    P, Q = se3.exp([0, 0, 1.5, 1, 0.5, 0]), se3.exp([0, 3.0, 0, 0.1, 0, 0.2])
+    model = ErrorModel(arm, ("screws", "home"), None)
+    nothing = np.zeros(len(model.parameters))
+    estimate: Any = SimpleNamespace(
+        model=SimpleNamespace(nominal=arm.rebased(se3.inverse(P)).retooled(se3.inverse(Q))),
+        at=lambda q: model.poses_and_twists(nothing, q),
+    )
+    found = base_and_tool(estimate, pose_points(arm.reach))
+    assert found.before > 1.0
     assert found.after < 1e-12
 
 
