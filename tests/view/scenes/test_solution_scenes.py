@@ -56,6 +56,9 @@ def test_the_words_of_a_choice_are_its_coordinates_and_the_places_it_stands_for(
     text = solutions_scene(EVERY).choices[0].text
     assert text.split(",")[0] == f"1: {np.degrees(EVERY.solutions[0][0]):.3g}°"
     assert f"(one of {EVERY.n_revolutions[0]} places, whole turns apart)" in text
+    alone = ARM.replace(limits=[[-3, 3]] * 6)
+    for choice in solutions_scene(pk.ik_all(alone, T, method="search")).choices:
+        assert "places" not in choice.text
 
 
 def test_the_rounding_of_a_zero_is_no_number_of_a_choice():
