@@ -334,6 +334,8 @@ def test_a_table_is_printed_with_what_moves():
         "  'joint3': theta 0.7  d 0.3 - x  a 0.4  alpha 0.2\n"
         "  'last': theta 0 + x  d 0  a 0  alpha 0>"
     )
+    coupled = Table("standard", [Row(name="a"), Row(name="b")], coupling=["b = b - a"])
+    assert repr(coupled).endswith("alpha 0\n  coupling: b = -a + b>")
 
 
 def test_two_tables_are_equal_when_all_of_them_is():

@@ -28,10 +28,12 @@ def test_a_subject_without_fault_is_exact(name, law):
 
 
 @pytest.mark.parametrize("law", applicable(SUBJECTS["poekin"]), ids=lambda law: law.name)
-def test_the_two_oracles_agree_on_what_the_law_is_tried_on(law):
+def test_the_two_oracles_agree_on_what_the_law_is_tried_on_and_it_runs_as_it_is_shown(law, capsys):
     subject = SUBJECTS["poekin"]
     found = worst(law, subject, examples=1, seconds=60.0)
     assert law.confirm(subject, found.case)
     shown = law.show(subject, found.case)
     assert shown.words
     assert "benchmarks.subjects.own import Poekin" in shown.paste
+    exec(shown.paste, {})
+    assert capsys.readouterr().out.strip()
