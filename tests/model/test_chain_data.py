@@ -171,6 +171,19 @@ def test_a_coordinate_is_an_angle_where_the_first_joint_that_follows_it_turns():
             rows, MOVED, coupling=[[1.0, 0.0], [2.0, 0.0]], q_names=["a", "idle"]
         )
         assert [coupled.is_angle(k) for k in range(2)] == [angle, True]
+    crossed = pk.Chain.from_space(
+        [TURN, SLIDE], MOVED, coupling=[[0, 2], [3, 0]], q_names=["s", "t"]
+    )
+    assert [crossed.is_angle(k) for k in range(2)] == [False, True]
+
+
+def test_masses_say_nothing_of_where_an_arm_is_and_are_left_out_with_new_screws():
+    chain = pk.Chain.from_space([TURN, SLIDE], MOVED, masses=[[2.0, 0.1, 0, 0], [1.0, 0, 0, 0]])
+    light = chain.replace(masses=None)
+    assert chain == light
+    assert hash(chain) == hash(light)
+    assert chain.replace(tip="flange").masses is not None
+    assert chain.replace(screws=[TURN, TURN]).masses is None
 
 
 def test_a_chain_has_room_for_its_data_alone():

@@ -104,6 +104,7 @@ NEAR = {
     "model/joint": f"own model/pitches {_ROBOTS}",
     "model/local": f"own {CHAINS} model/pitches model/idealised",
     "model/normals": "model/axis_walk model/idealised model/hp formats/dh_values formats/dh",
+    "model/all_poses": f"model/robot model/tree model/degrees {_REFUSALS}",
     "model/provenance": f"own {_ROBOTS}",
     "model/robot model/tree": _ROBOTS,
     "model/sampling": f"model/coupled model/idealise {CHAINS} {_REFUSALS}",

@@ -194,3 +194,12 @@ def test_a_result_says_its_bounds_in_mm_and_degrees_and_keeps_si_in_numbers():
     assert Idealised(result.chain, 1e-6, np.pi / 180, ()).summary().endswith("0.001 mm and 1°")
     exact = Chain.from_space([screw.revolute(Z, [0, 0, 0])], np.eye(4)).idealised(0.01)
     assert exact.summary() == "nothing was changed but rounding: within 0 mm and 0°"
+
+
+def test_what_is_made_exact_keeps_its_masses():
+    masses = [[2.0, 0.1, 0.0, 0.3]]
+    chain = Chain.from_space([screw.revolute(TILTED, [0, 0, 0])], np.eye(4), masses=masses)
+    exact_chain = chain.idealised(TOL).chain
+    assert exact_chain.screws[0].tolist() == [0, 0, 1, 0, 0, 0]
+    assert exact_chain.masses is not None
+    assert exact_chain.masses.tolist() == masses

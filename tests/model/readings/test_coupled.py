@@ -22,7 +22,7 @@ from poekin.model.readings.coupled import (
     reading_speeds,
     sum_limits,
 )
-from poekin.model.sampling import half_range, sampling_range
+from poekin.model.sampling import dominant_ratios, half_range, joint_ratios, sampling_range
 
 ROBOT = pk.load("puma560")
 ARM = ROBOT.chain()
@@ -220,6 +220,22 @@ def test_readings_without_limits_are_drawn_from_where_the_joints_own_limits_lie(
     np.testing.assert_array_equal(sampling_range(within)[0], -half_range(within))
 
 
+@pytest.mark.parametrize("own", [(-1.0, np.inf), (2.0, np.inf), (-np.inf, 9.0)], ids=str)
+def test_a_range_that_its_joint_s_own_limit_leaves_a_part_of_is_not_moved(own):
+    arm = pk.Chain.from_space(
+        [[0, 0, 1, 0, 0, 0]], np.eye(4), offset=[5.0], joint_limits=[own], limits=None
+    )
+    np.testing.assert_allclose(sampling_range(arm), [[-np.pi], [np.pi]])
+
+
+def test_the_ratio_of_the_joint_that_a_coordinate_moves_most_keeps_its_sign():
+    turn, slide = [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]
+    C = [[1.0, 0.0], [-2.0, 0.5], [9.0, -0.25]]
+    arm = pk.Chain.from_space([turn, turn, slide], np.eye(4), coupling=C, q_names=["a", "b"])
+    assert dominant_ratios(arm).tolist() == [-2.0, 0.5]
+    assert joint_ratios(arm).tolist() == [2.0, 0.5]
+
+
 def test_a_chain_that_no_configuration_keeps_within_its_joints_limits_draws_none():
     far = np.tile([50.0, 51.0], (6, 1))
     with pytest.raises(
@@ -247,6 +263,8 @@ def test_a_robot_s_chains_and_poses_take_readings():
     again = pickle.loads(pickle.dumps(robot))
     assert (again, hash(again)) == (robot, hash(robot))
     assert pk.Robot("puma560", robot.links, robot.joints, coupling="q3 = q3 + q2") == robot
+    heavy = pk.Robot("r", robot.links, robot.joints, masses=[pk.LinkMass(robot.links[-1], 2.0)])
+    assert heavy.coupled("J3 = J2 + J3").masses == heavy.masses != ()
 
 
 def test_a_chain_from_the_middle_has_the_readings_that_its_joints_follow():

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from poekin.errors import ModelError
 from poekin.model.joint import Joint, Mimic
 from poekin.model.provenance import Source
 from poekin.model.tree.coupling import Coupling, coupling_of, shared_limits, shared_velocity_limits
@@ -40,6 +41,17 @@ def test_a_mimic_of_a_mimic_is_composed_whichever_comes_first():
     assert found.shift.tolist() == [-0.5, 0, 0.5, 0, 0, 0]
     assert found.coordinate[4] < 0
     assert found.coordinate[5] == 1
+
+
+def test_a_multiplier_that_is_too_large_is_that_of_the_joint_where_the_product_is():
+    joints = [
+        joint("last", mimic=Mimic("j", 2.0)),
+        joint("i"),
+        joint("j", mimic=Mimic("k", 1e200)),
+        joint("k", mimic=Mimic("i", 1e200)),
+    ]
+    with pytest.raises(ModelError, match=r"^x\.urdf: joint 'j': the product of its chain"):
+        coupled(*joints)
 
 
 def test_what_follows_a_fixed_joint_stands_still_and_a_fixed_joint_follows_nothing():
