@@ -312,6 +312,15 @@ def test_the_fastest_trajectory_is_through_its_coordinates():
     np.testing.assert_array_equal(found.times, expected.times)
 
 
+def test_its_plot_is_over_its_times_and_broken_where_the_branch_changes(drawn_figures):
+    pytest.importorskip("matplotlib")
+    q = [[0, 0, 0], [0.1, 0, 0], [1.5, 0.2, 0], [1.6, 0.2, 0]]
+    followed(q, changes=[2], times=[0, 1, 3, 8]).plot()
+    first, last, gap = drawn_figures[0].axes[0].lines
+    assert (first.get_xdata().tolist(), last.get_xdata().tolist()) == ([0, 1], [3, 8])
+    assert gap.get_xdata() == [2, 2]
+
+
 def test_there_is_no_fastest_trajectory_along_a_path_with_a_break():
     q = [[0, 0, 0.1], [0.1, 0.2, 0.1], [0.2, 0.2, 0.3]]
     missed = followed(q, reason=["solved", "unreachable", "solved"])
