@@ -105,6 +105,14 @@ def test_shapes_are_found_where_they_are_and_not_where_they_miss():
     ).shapes
 
 
+def test_an_s_r_s_arm_misses_its_shape_by_as_much_as_the_worse_of_shoulder_and_wrist():
+    off = [WRIST[0], WRIST[1], ((1, 0, 0), (0, 0, 1e-3))]
+    high = [SHOULDER[0], SHOULDER[1], ((1, 0, 0), (0, 0, 1e-3))]
+    for arm in (made(*SHOULDER, *ELBOW, *off), made(*high, *ELBOW, *WRIST)):
+        errors = [shape.error for shape in axes(arm, tol_position=1e-3).shapes]
+        assert errors[-1] == max(errors) == pytest.approx(5e-4)
+
+
 def test_a_kind_of_shape_that_does_not_exist_is_refused_with_those_that_do():
     with pytest.raises(InputError) as caught:
         axes(made(*WRIST)).has("wrist")  # pyright: ignore[reportArgumentType]

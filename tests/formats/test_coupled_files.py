@@ -118,6 +118,12 @@ def test_a_urdf_has_the_joints_own_values_and_says_so():
     assert text == pk.to_urdf(pk.dh.to_robot(PUMA), name="fanuc")
 
 
+def test_joints_of_a_coupled_chain_s_robot_are_as_fast_as_they_are_in_the_chain():
+    chain = pk.dh.to_chain(PUMA).replace(velocity_limits=np.arange(1.0, 7.0))
+    robot = serial_robot(chain.coupled("J3 = J2 + J3"))
+    assert [robot.joint(name).velocity for name in chain.joint_names] == [1, 2, 3, 4, 5, 6]
+
+
 def test_a_coupled_chain_goes_into_a_urdf_of_joints_with_a_warning():
     plain = pk.dh.to_robot(PUMA)
     mine = pk.to_urdf(plain).encode()

@@ -56,6 +56,16 @@ def test_lengths_a_thousand_times_too_long_or_too_short_are_named_whichever_mode
         assert result.before.worst_position > 0.1
 
 
+def test_pose_errors_as_the_models_stand_are_told_in_the_units_that_the_models_have():
+    chain = arm("ur5e")
+    result = compare(chain, rescaled(chain, 1000.0), samples=5)
+    assert (result.mistake, result.joints[1].shift) == ("millimetres", pytest.approx(0.0, abs=1e-9))
+    assert result.before is not None
+    assert result.after is not None
+    assert result.before.worst_position > 100 * chain.reach
+    assert result.after.worst_position < 1e-9
+
+
 @pytest.mark.parametrize(
     "change, swapped", [("tilt", True), ("shift", False), ("zero", True), ("flip", False)]
 )

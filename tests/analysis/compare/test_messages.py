@@ -230,6 +230,20 @@ def test_other_readings_say_which_joint_is_to_blame_instead_and_for_what():
     ]  # fmt: skip
 
 
+def test_another_explanation_has_its_zero_offset_in_b_whichever_model_that_is():
+    rows = [
+        pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([1, 0, 0]),
+        pk.screw.revolute([0, 1, 0], [0.5, 0, 0.3]),
+    ]  # fmt: skip
+    one = Chain.from_space(rows, np.eye(4))
+    rows[0] = pk.screw.revolute([0, 0, 1], [0.05, 0, 0])
+    other = Chain.from_space(rows, np.eye(4))
+    for a, b, offset in ((one, other, "50 mm"), (other, one, "-50 mm")):
+        said = compare(a, b, samples=1).alternatives
+        (words,) = (text for text in said if text.startswith("a zero offset"))
+        assert words.startswith(f"a zero offset of {offset} of joint 2 ('joint2'), with the base")
+
+
 def test_the_verdict_says_what_is_the_same_what_differs_and_what_was_aligned():
     base, tool = pk.se3.exp([0, 0, np.radians(10), 0, 0, 0]), pk.se3.exp([0, 0, 0, 0.05, 0, 0])
     S = UR.screws.copy()
@@ -252,6 +266,8 @@ def test_the_verdict_says_what_is_the_same_what_differs_and_what_was_aligned():
     assert said(bent.retooled(tool)) == f"{said(bent)}; aligned: the tool frame is moved by 50 mm"
     assert said(bent, strict=True) == said(bent)
     assert said(UR.retooled(tool), strict=True) == f"{other}; the tool frame is moved by 50 mm"
+    both = said(UR.rebased(base).retooled(tool), strict=True)
+    assert both == "; ".join([head, turned, moved]).replace("aligned: ", "")
     free = said(UR.retooled(tool), same=("base", "zeros"))
     may = "the models are the same but for what may differ"
     assert free == f"{may}; aligned: the tool frame is moved by 50 mm"

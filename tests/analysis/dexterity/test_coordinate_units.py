@@ -102,6 +102,14 @@ def test_the_coordinate_that_leads_is_that_whose_joint_moves_most_and_rates_are_
     assert found.summary().endswith(words)
 
 
+def test_a_gear_that_makes_a_coordinate_run_fast_does_not_make_it_lead_to_the_singularity():
+    q, ratios = np.array([0.0, -1.0, 0.5, -2.0, -1.5, 0.0]), np.array([1, 1, 1, 1, 1e-3, 1])
+    found = pk.singularity(geared(UR5E, ratios), q / ratios)
+    shares = np.abs(found.gradient_direction)
+    assert UR5E.q_names[int(np.argmax(shares))] == "wrist_2_joint"
+    assert "most of it in 'elbow_joint'" in found.summary()
+
+
 def test_rates_are_those_of_joints_that_go_by_more_than_a_tenth():
     names, ratios = ("a", "b", "c", "d"), np.array([1.0, 1e-3, 1e3, 1.0])
     rates = np.array([-0.101, 500.0, 0.00075, 0.099])

@@ -149,6 +149,12 @@ def test_the_least_rates_and_the_lost_motion_are_singular_vectors(data):
         ).all()
 
 
+def test_a_tolerance_that_the_arm_never_keeps_calls_it_singular_and_leaves_it_its_motions():
+    found = singularity(elbow_arm(), AWAY, tolerance=0.9)
+    assert (found.singular, found.rank, found.generic_rank) == (True, 1, 6)
+    assert found.singular_subspace.shape == (5, 6)
+
+
 def test_a_lost_motion_in_a_wrong_frame_is_seen(monkeypatch):
     arm, right = elbow_arm(), pk.Chain.jacobian
     J = arm.jacobian(ELBOW, "hybrid")

@@ -47,6 +47,18 @@ def test_a_path_is_followed_and_its_joints_are_csv(poekin, arm, T, given):
     assert err.startswith("poekin: 50 of 50 poses reached, within ")
 
 
+def test_without_limits_a_path_goes_beyond_them(poekin, crane, tmp_path):
+    q = np.linspace([0.2, 0.9], [0.3, 1.1], 20)
+    T = pk.load(crane).chain(tip="hook").fk(q)
+    motion.write_poses(tmp_path / "beyond.csv", T, "12")
+    words = ["follow", crane, "--tip", "hook", "--input", tmp_path / "beyond.csv", "--format", 12]
+    code, out, _ = poekin(*words, "--q0", "0.2,0.9", "--no-limits")
+    assert code == 0
+    found = np.array([line.split(",") for line in out.splitlines()[1:]], float)
+    np.testing.assert_allclose(found, q, rtol=0, atol=1e-8)
+    assert poekin(*words, "--q0", "0.2,0.9")[0] == 1
+
+
 def test_json_holds_the_whole_report(as_json, given):
     result = as_json(*PANDA, *given)
     assert result["ok"] is True

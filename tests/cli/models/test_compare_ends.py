@@ -70,6 +70,19 @@ def test_where_no_link_helps_none_is_named(tmp_path, poekin):
     assert "the base frame is moved" in out
 
 
+def test_a_base_or_tip_of_a_counts_for_b_too_where_b_has_such_a_link(tmp_path, poekin):
+    pair = []
+    for name, height in (("a.urdf", "0.8"), ("b.urdf", "0.7")):
+        stand = FIXED.format("up", "world", "base", f"0 0 {height}")
+        hand = FIXED.format("end", "tip", "flange", f"0 0 {height}")
+        pair.append(written(tmp_path, name, [stand, hand], ["world", "flange"]))
+    assert poekin("compare", *pair)[0] == 3
+    code, out, _ = poekin("compare", *pair, "--base", "base", "--tip", "tip")
+    assert out.startswith("A: base → tip; B: base → tip\n")
+    assert code == 0
+    assert poekin("compare", *pair, "--base", "base", "--tip", "tip", "--base-b", "world")[0] == 3
+
+
 def test_a_joint_in_the_middle_has_no_remedy(tmp_path, poekin):
     a = written(tmp_path, "a.urdf")
     text = (tmp_path / "a.urdf").read_text(encoding="utf-8")

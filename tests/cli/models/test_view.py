@@ -80,6 +80,13 @@ def test_a_second_model_is_laid_over_the_first(scene, crane, tmp_path):
     assert found["title"] == "crane and other"
 
 
+def test_a_second_model_begins_at_the_same_base(scene, crane):
+    found = scene(crane, "--base", "a", "--tip", "hook", "--compare", crane, "--q", "0.5")
+    first, second = found["arms"]
+    assert first["name"] == second["name"] == "a → hook"
+    assert found["words"][0] == "The models are the same"
+
+
 def test_a_path_is_played_with_its_times(scene, crane, tmp_path):
     file = tmp_path / "q.csv"
     file.write_text("time,turn,slide\n0,0,0\n0.5,0.1,0.2\n2,0.2,0.4\n")

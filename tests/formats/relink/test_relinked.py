@@ -286,6 +286,21 @@ def test_a_base_beside_the_branch_is_the_chain_s_frame():
     assert result.joint("on") == robot.joint("on")
 
 
+def test_a_base_may_be_several_fixed_joints_away_from_the_link_where_the_branch_begins():
+    arm = pk.load("ur5e")
+    post, plate = pk.se3.exp([0, 0, 1, 0.1, 0, 0]), pk.se3.exp([0.5, 0, 0, 0, 0.2, 0.3])
+    joints = [
+        Joint("up", "fixed", "base", "post", post),
+        Joint("on", "fixed", "post", "plate", plate),
+        *arm.joints,
+    ]
+    robot = Robot("r", [*arm.links, "post", "plate"], joints)
+    other = pk.load("ur10e").chain()
+    result = relinked(robot, other, base="plate", tip="tool0")
+    q = np.full(6, 0.3)
+    assert np.abs(result.chain("plate", "tool0").fk(q) - other.fk(q)).max() <= 1e-14
+
+
 def test_a_tip_that_its_joint_moves_itself_is_the_chain_s_tip_where_it_lies_on_the_axis():
     robot, z = pk.load("ur5e"), pk.load("ur5e").chain(tip="wrist_3_link")
     along = pk.se3.exp([0, 0, 0.1, 0, 0, 0.02])

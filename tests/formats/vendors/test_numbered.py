@@ -117,6 +117,13 @@ def test_angles_turn_about_fixed_axes_unless_something_else_is_said():
     np.testing.assert_allclose(moving.to_chain().home[:3, 3], (0, 0.49, 0.33), atol=1e-2)
 
 
+def test_the_flange_s_angles_turn_about_the_axes_that_are_said_as_the_joints_do():
+    roll, pitch, yaw = (pk.so3.exp(turn) for turn in np.diag([0.3, 0.4, 0.5]))
+    text = yaml(RIZON_4S, axes=RIZON_AXES, flange=(0.1, 0, 0, 0.3, 0.4, 0.5))
+    for axes, R in (("fixed", yaw @ pitch @ roll), ("moving", roll @ pitch @ yaw)):
+        np.testing.assert_allclose(read_text(text, rpy=axes).flange[:3, :3], R, atol=1e-14)
+
+
 @pytest.mark.parametrize("name", UFACTORY)
 def test_a_file_of_ufactory_is_known_by_its_numbers(name):
     found = read_text(yaml(UFACTORY[name]))

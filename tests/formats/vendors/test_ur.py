@@ -204,6 +204,14 @@ def test_deltas_on_the_nominal_table_are_the_arm_s_own():
     assert ur.add_deltas(NOMINAL) == NOMINAL
 
 
+def test_deltas_leave_base_and_tool_of_a_table_where_they_are():
+    base, tool = pk.se3.exp([0, 0, 1, 0.1, 0.2, 0.3]), pk.se3.exp([0.5, 0, 0, 0, 0, 0.1])
+    placed = Table("standard", NOMINAL.rows, base=base, tool=tool)
+    table = ur.add_deltas(placed, delta_a=[1e-4, 0, 0, 0, 0, 0])
+    np.testing.assert_array_equal(table.base, placed.base)
+    np.testing.assert_array_equal(table.tool, placed.tool)
+
+
 def test_a_controller_s_file_is_read_and_moves_a_ur10_by_three_millimetres(tmp_path):
     table, nominal = conf_arm(tmp_path), pk.dh.published("ur10")
     assert table.d[1] == 11.1984514757821039

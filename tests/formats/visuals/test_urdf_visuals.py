@@ -112,6 +112,9 @@ def test_a_material_s_colour_stands_for_its_name_in_the_visuals_after_it():
     first = visual(BALL, f'<material name="m">{BLUE}</material>')
     found = looks(first + visual(BALL, '<material name="m"/>')).found
     assert [shape.color for shape in found] == [(0, 0, 1, 0.5)] * 2
+    bare = visual(BALL, '<material name="m"/>')
+    found = looks(bare + first + bare).found
+    assert [shape.color for shape in found] == [None, (0, 0, 1, 0.5), (0, 0, 1, 0.5)]
 
 
 def test_the_pose_of_a_visual_may_be_a_quaternion_where_the_robot_s_may():

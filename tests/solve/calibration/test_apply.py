@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -165,6 +166,18 @@ def test_a_ur10e_s_calibration_on_a_ur5e_is_refused_unless_forced():
     )
     forced = pk.calibration.apply(robot, ur10e(), force=True)
     assert np.abs(forced.chain().home - ur10e().to_chain().home).max() <= HOME
+
+
+def test_a_refusal_names_the_links_of_the_robot_though_the_calibration_calls_them_otherwise():
+    table = pk.dh.published("ur5e")
+    robot = pk.ur.from_dh(table, nominal=table).to_robot("ur")
+    joints = [
+        replace(joint, parent=f"left_{joint.parent}", child=f"left_{joint.child}")
+        for joint in robot.joints
+    ]
+    left = Robot("left", [f"left_{link}" for link in robot.links], joints)
+    with pytest.raises(InputError, match=r"arm 'left', from 'left_base' to 'left_tool0': "):
+        pk.calibration.apply(left, ur10e())
 
 
 ARMS = [arm for n in (6, 7) for arm in known_arms(n)]

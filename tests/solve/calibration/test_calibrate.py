@@ -336,6 +336,8 @@ def test_the_result_says_what_it_is_and_goes_on_to_other_forms(tmp_path):
         pk.dh.to_chain(table.table).fk(q), found.chain.fk(q), rtol=0, atol=1e-9
     )
     assert "panda_joint" in str(found.compare())
+    compared = found.compare()
+    assert (compared.a, compared.b) == (found.nominal, found.chain)
 
 
 def test_millimetres_and_degrees_are_suggested_never_converted():

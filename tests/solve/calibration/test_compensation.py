@@ -56,6 +56,13 @@ def test_one_pose_is_a_batch_without_axes():
     assert SAG.true_joints(dict(zip(CHAIN.q_names, command.q, strict=True))).shape == (6,)
 
 
+def test_the_command_is_near_the_configuration_that_was_asked_for():
+    q = MADE.fresh[:3]
+    command = SAG.compensate(CHAIN.fk(q), nearest_to=q)
+    assert np.abs(command.q - q).max() < 0.2
+    assert np.abs(SAG.compensate(CHAIN.fk(q)).q - q).max() > 1.0
+
+
 def test_without_terms_the_true_joints_are_the_readings():
     plain = calibrate(CHAIN, MADE.q, MADE.points, folds=0, on_rank_deficiency="fix")
     q = CHAIN.random(0, 6).reshape(2, 3, 6)

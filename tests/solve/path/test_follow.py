@@ -75,6 +75,17 @@ def test_a_straight_path_of_half_a_metre_is_followed_without_a_jump(name, q, giv
         np.testing.assert_allclose(path.q[0], q, rtol=0, atol=1e-8)
 
 
+@pytest.mark.parametrize("most, switches", [(0.02, (1,)), (0.1, ())])
+def test_largest_steps_by_name_are_in_the_coordinates_own_unit_as_a_row_of_them_is(most, switches):
+    radians = np.pi / 180
+    arm = planar().replace(coupling=np.diag([radians, radians, 1.0]))
+    q = np.array([[10, 40, 0], [30, 60, 0.0]])
+    named = {"shoulder": most, "elbow": most, "lift": 1.0}
+    for steps in (named, list(named.values())):
+        path = follow(arm, arm.fk(q), q0=q[0], max_step=steps)
+        assert path.branch_switches == switches
+
+
 @settings(max_examples=30)
 @given(seed=st.integers(0, 10**6), count=st.integers(2, 40))
 def test_between_two_poses_the_joints_never_jump_unless_it_is_said(seed, count):

@@ -213,6 +213,20 @@ def test_a_locked_coordinate_leads_out_of_no_singularity():
     assert free.lock == {}
 
 
+def test_a_coordinate_in_degrees_is_locked_where_it_stands_and_not_at_as_many_radians():
+    # at 180 degrees the outer axes are one line: the wrist has one turn, and that is never lost
+    axes = [[0, 0, 1], [0, 1, 0], [0, 0, 1]]
+    wrist = pk.Chain.from_space(
+        [screw.revolute(w, [0, 0, 0]) for w in axes], np.eye(4), coupling=np.diag([1, np.pi / 180, 1]),
+        q_names=["first", "tilt", "last"],
+    )  # fmt: skip
+    q = np.linspace([0, 180, 0], [0.2, 180, 0], 5)
+    path = pk.follow(wrist, wrist.fk(q), task="rotation", q0=q[0], lock={"tilt": 180.0})
+    assert path.success.all()
+    assert path.inverse_condition == pytest.approx(1.0)
+    assert path.near_singular == ()
+
+
 def test_an_arm_without_any_motion_that_the_task_asks_is_nowhere_near_a_singularity():
     slides = pk.Chain.from_space([screw.prismatic(way) for way in np.eye(3)], np.eye(4))
     path = followed(np.zeros((2, 3)), task="rotation", arm=slides)
@@ -296,6 +310,15 @@ def test_the_fastest_trajectory_is_through_its_coordinates():
     expected = pk.motion.time_optimal(ARM, q, acceleration=2.0, speed=[1.0, 2.0, 3.0])
     np.testing.assert_array_equal(found.q, expected.q)
     np.testing.assert_array_equal(found.times, expected.times)
+
+
+def test_its_plot_is_over_its_times_and_broken_where_the_branch_changes(drawn_figures):
+    pytest.importorskip("matplotlib")
+    q = [[0, 0, 0], [0.1, 0, 0], [1.5, 0.2, 0], [1.6, 0.2, 0]]
+    followed(q, changes=[2], times=[0, 1, 3, 8]).plot()
+    first, last, gap = drawn_figures[0].axes[0].lines
+    assert (first.get_xdata().tolist(), last.get_xdata().tolist()) == ([0, 1], [3, 8])
+    assert gap.get_xdata() == [2, 2]
 
 
 def test_there_is_no_fastest_trajectory_along_a_path_with_a_break():

@@ -63,6 +63,26 @@ def test_the_best_poses_of_all_come_with_their_solutions():
     assert pk.sweep.top(ARM, "manipulability", samples=100).T is None
 
 
+def test_the_best_solutions_under_a_mask_are_those_in_which_the_arm_does_not_touch_itself():
+    spheres = [("wrist_3_link", (0, 0, 0.1), 0.2), ("upper_arm_link", (-0.2, 0, 0.14), 0.08)]
+    mask = pk.sweep.SelfCollision.of_spheres(pk.load("ur5e"), ARM, spheres)
+    masked = run(Sweep(ARM, POSES, CELLS, "manipulability", keep="worst", mask=mask))
+    plain = run(Sweep(ARM, POSES, CELLS, "manipulability", keep="worst"))
+    touching = []
+    for found in (masked, plain):
+        q = found.configurations(found.counts > 0)
+        touching.append(np.count_nonzero(mask.touches(ARM, q)))
+        own = pk.manipulability(ARM, q).pose.yoshikawa
+        best, _ = measured(found)
+        np.testing.assert_allclose(own, best[found.counts > 0], atol=1e-6)
+    assert touching[0] == 0 < touching[1]
+    least = [
+        pk.sweep.top(ARM, "manipulability", 20, keep="worst", samples=POSES, mask=one)
+        for one in (mask, None)
+    ]
+    assert [mask.touches(ARM, found.q).any() for found in least] == [False, True]
+
+
 def test_poses_are_counted_by_the_measure_of_their_best_solution():
     found = pk.sweep.histogram(ARM, "solutions", bins=8, ends=(0.5, 8.5), samples=POSES)
     expected = np.bincount(EVERY.counts, minlength=9)[1:]

@@ -30,6 +30,15 @@ def test_both_arms_have_the_same_coordinates_and_the_calibrated_one_is_that_of_t
     assert [s.name for s in first.coordinates] == list(ARM.q_names)
 
 
+def test_joints_of_a_calibrated_arm_with_coupled_readings_follow_the_same_sliders():
+    arm = pk.dh.to_chain(pk.dh.published("puma560")).coupled("J3 = J2 + J3")
+    made = pk.calibration.simulated(arm, 30, seed=2)
+    found = pk.calibrate(arm, made.q, made.measurements, on_rank_deficiency="fix", folds=0)
+    _, second = calibration_scene(found).arms
+    np.testing.assert_array_equal(second.factors[:-1], arm.coupling)
+    assert not np.array_equal(arm.coupling, np.eye(6))
+
+
 def test_arrows_go_from_the_measured_points_by_the_residuals_enlarged_as_the_words_say(found):
     scene = calibration_scene(found)
     v = found.residuals

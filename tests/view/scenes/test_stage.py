@@ -28,6 +28,14 @@ def test_configurations_of_a_part_are_those_of_its_robot_the_others_as_they_open
     )
 
 
+def test_joints_in_front_of_a_part_stay_where_their_limits_leave_them_and_not_at_zero():
+    hand = ROBOT.chain(base="panda_link4", tip="panda_hand")
+    stage = make_stage(hand, None, ROBOT)
+    elbow = ROBOT.limits[3].mean()
+    assert elbow < -1.0
+    np.testing.assert_array_equal(stage.configurations(hand.random(2, size=3))[:, 3], [elbow] * 3)
+
+
 def test_a_stage_opens_at_the_configuration_that_is_given_and_stands_on_the_base_of_the_part():
     stage = make_stage(PART, Q, ROBOT)
     assert stage.base == ROBOT.links.index("panda_link2")

@@ -174,3 +174,32 @@ def test_the_worst_direction_is_weighed_by_the_reach_of_the_arm_whatever_the_sce
     assert np.linalg.norm(arrow) == pytest.approx(1.5, rel=1e-14)  # one and a half of a rad/rad
     unit = arrow / np.linalg.norm(arrow)
     np.testing.assert_allclose(unit, larger / np.linalg.norm(larger), rtol=0, atol=1e-13)
+
+
+def test_the_nearest_limit_is_told_in_the_unit_of_the_tip_s_own_coordinate(tmp_path):
+    arm = {
+        "coordinates": [{"unit": "m"}, {"unit": "rad"}],
+        "tips": [{"coordinates": [1]}, {"coordinates": [0, 1]}],
+    }
+    script = """
+    const told = (selectedTip, limits, names) => Numbers.prototype.limit.call(
+        { poekin: { selectedTip } }, Math.min(...limits), { limits }, names, given.arm);
+    print([told(0, [0.5], ["elbow"]), told(1, [0.25, 0.5], ["lift", "elbow"])]);"""
+    found = ask(tmp_path, 'import { Numbers } from "./panel/numbers.js";', script, arm=arm)
+    assert found == ["28.6° (elbow)", "0.2500 m (lift)"]
+
+
+def test_a_motion_is_named_for_its_larger_part_in_the_arm_s_own_length(tmp_path):
+    twists = [[0, 0, 0.3, 0.2, 0, 0], [0, 0, 0.1, 0.2, 0, 0]]
+    script = "print(given.twists.map((twist) => directionWords(twist, 0.5)));"
+    found = ask(
+        tmp_path, 'import { directionWords } from "./panel/numbers.js";', script, twists=twists
+    )
+    assert found == ["along (1.00, 0.00, 0.00)"] * 2
+    script = "print(given.twists.map((twist) => directionWords(twist, 1)));"
+    folder = tmp_path / "metre"
+    folder.mkdir()
+    found = ask(
+        folder, 'import { directionWords } from "./panel/numbers.js";', script, twists=twists
+    )
+    assert found == ["turning about (0.00, 0.00, 1.00)", "along (1.00, 0.00, 0.00)"]

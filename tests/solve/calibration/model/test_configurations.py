@@ -185,6 +185,15 @@ def test_means_of_conditions_come_with_those_of_the_measurements():
     assert average_repeats(q, points, {})[2] == {}
 
 
+def test_means_of_conditions_are_of_the_rows_of_q_that_were_measured():
+    q = np.array([[0.1], [0.5], [0.1], [0.9]])
+    points = Points(np.arange(9.0).reshape(3, 3), rows=[2, 0, 3])
+    mean_q, means, found = average_repeats(q, points, {"time": [1.0, 2, 4, 8]})
+    assert mean_q.ravel().tolist() == pytest.approx([0.1, 0.9])
+    np.testing.assert_allclose(means.measured[:, 0], [[1.5, 2.5, 3.5], [6, 7, 8]])
+    np.testing.assert_allclose(found["time"], [2.5, 8])
+
+
 @pytest.mark.parametrize(
     ("values", "message"),
     [

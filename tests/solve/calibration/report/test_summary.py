@@ -62,6 +62,18 @@ def test_of_points_the_table_has_no_angles():
     assert not any(line.startswith("held out") for line in text)
 
 
+def test_a_centre_that_was_not_known_is_told_in_the_base_and_points_of_the_tool_in_the_tip():
+    centre, point = np.array([1.0, 0.2, -0.3]), np.array([0.0, 0.05, 0.1])
+    for name, place, frame in (("centre", centre, "base"), ("point 1", point, "tool")):
+        parameters = tuple(
+            p._replace(owner=name) if k < 3 else p for k, p in enumerate(FOUND.parameters)
+        )
+        found = replace(FOUND, parameters=parameters, frames={name: place})
+        told = ", ".join(f"{1e3 * x:.3f}" for x in place)
+        (line,) = (x for x in lines(found) if x.startswith(f"{name} at"))
+        assert line.startswith(f"{name} at ({told}) mm in '{frame}', standard deviations (")
+
+
 def test_the_head_says_how_many_steps_and_whether_it_converged():
     words = f"{len(FOUND.parameters)} parameters, 20 measurements, "
     steps = len(FOUND.steps)
