@@ -14,13 +14,12 @@ import numpy as np
 from ..errors import FileError
 from ..formats.text import csv_rows
 from ..formats.text.atomic_write import reason, write_whole
-from ..solve.motion.csv_io import velocity_columns
+from ..solve.motion.csv_io import TIME, velocity_columns
 from . import npy
 from .model import STANDARD_INPUT, STDIN, stdin_taken, take_stdin
 from .output import path_text
 
 TABLES = (".csv", ".npy", ".json")
-TIME = "time"
 ERRORS = ("success", "position_error", "rotation_error")
 """Columns that `ik` and `follow` write beside the coordinates."""
 Rows = tuple[np.ndarray, np.ndarray | None]
@@ -46,7 +45,7 @@ def to_open(given: str, what: str = "--input") -> str | int:
 def read_configurations(
     given: str,
     columns: csv_rows.Columns,
-    progress: csv_rows.Progress,
+    progress: csv_rows.Progress | None = None,
 ) -> np.ndarray:
     """Configurations (N, m) out of a .npy file or, whatever else its name ends in, a CSV file; "-"
     is CSV on stdin.
@@ -61,6 +60,17 @@ def read_configurations(
     """
     besides = (TIME, *ERRORS, *velocity_columns(columns.names))
     return read_rows(given, columns._replace(besides=besides), progress)[0]
+
+
+def read_path(given: str, columns: csv_rows.Columns) -> Rows:
+    """Configurations (N, m) as `read_configurations` reads them, and times (N,), s, where the header
+    of a CSV file names a column `time`, else None.
+    """
+    if TIME not in columns.names:
+        columns = columns._replace(first=(TIME,))
+    rows = read_configurations(given, columns)
+    more = rows.shape[1] - len(columns.names)
+    return rows[:, more:], rows[:, 0] if more else None
 
 
 def read_rows(

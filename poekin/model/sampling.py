@@ -35,8 +35,7 @@ def random(
         beyond = beyond_own_limits(chain, q).any(axis=-1)
         if not beyond.any():
             return q
-        count = np.count_nonzero(beyond)
-        q[beyond] = low + width * rng.random((count, chain.dof))
+        q[beyond] = low + width * rng.random(q[beyond].shape)
     raise InputError(
         f"random: of {DRAWS} draws within the coordinates' limits, none keeps the joints within "
         "their own: joint_limits"
@@ -137,6 +136,5 @@ def dominant_ratios(chain: ChainData) -> Array:
     for k, is_angle in enumerate(angle_mask(chain)):
         ratios = C[slides != is_angle, k]
         if ratios.any():
-            largest = np.argmax(np.abs(ratios))
-            found[k] = ratios[largest]
+            found[k] = max(ratios, key=abs)
     return found

@@ -13,10 +13,8 @@ from ...analysis.compare.compare import compare
 from ...errors import InputError
 from ...model.chain import Chain
 from ...model.robot import Robot
-from ...progress_line import ProgressLine
 from ...solve.ik.ik import ik
 from ...solve.ik_all.ik_all import ik_all
-from ...solve.motion.csv_io import read_joints
 from ...solve.path.joint_path import joint_path
 from ...solve.path.path_result import PathResult
 from ...view.page import Page, page
@@ -143,16 +141,10 @@ def _of_robot(robot: Robot, asked: ViewOptions, format: str | None, quaternion: 
 
 def _path(given: str, chain: Chain, units: SaidUnits) -> PathResult:
     """Path of the configurations in a file, with its times where it has them."""
-    times = None
-    if given.lower().endswith(".csv") and not units.said():
-        q, times = read_joints(given, chain)
-    else:
-        with ProgressLine("reading") as progress:
-            q = array_files.read_configurations(given, units.columns(chain), progress)
-        q = units.to_si(q, chain)
+    q, times = array_files.read_path(given, units.columns(chain))
     if not len(q):
         raise InputError("--path: expected a configuration at least, got none")
-    return joint_path(chain, q, times)
+    return joint_path(chain, units.to_si(q, chain), times)
 
 
 def _compared(file: str, asked: ViewOptions) -> tuple[Page, str]:
@@ -162,8 +154,8 @@ def _compared(file: str, asked: ViewOptions) -> tuple[Page, str]:
     a = chosen_chain(robot_a, file, "--tip", asked.base, asked.tip).chain
     b = chosen_chain(robot_b, other, "--tip", None, None, asked.base, asked.tip).chain
     q = poses.coordinates(asked.q, a, "--q", asked.units)
-    title = f"{robot_a.name} and {robot_b.name}"
-    return page(comparison_scene(compare(a, b), q=q, title=title)), robot_a.name
+    scene = comparison_scene(compare(a, b), q=q, title=f"{robot_a.name} and {robot_b.name}")
+    return page(scene), robot_a.name
 
 
 def _file_name(name: str) -> str:

@@ -96,6 +96,10 @@ def test_a_path_is_played_with_its_times(scene, crane, tmp_path):
     file.write_text("0,0\n90,1000\n")
     motion = scene(crane, "--tip", "hook", "--path", file, "--deg", "--mm")["motion"]
     assert motion["q"][1] == pytest.approx([np.pi / 2, 1.0])
+    file.write_text("slide,time,turn,success\n0,1,0,1\n1000,4,90,1\n")
+    motion = scene(crane, "--tip", "hook", "--path", file, "--deg", "--mm")["motion"]
+    assert motion["q"][1] == pytest.approx([np.pi / 2, 1.0])
+    assert motion["times"] == [1, 4]
 
 
 def test_a_path_is_drawn_in_its_robot_and_without_meshes_as_a_skeleton_of_its_chain(

@@ -204,12 +204,15 @@ def test_deltas_on_the_nominal_table_are_the_arm_s_own():
     assert ur.add_deltas(NOMINAL) == NOMINAL
 
 
-def test_deltas_leave_base_and_tool_of_a_table_where_they_are():
+def test_deltas_leave_base_tool_name_and_coupling_of_a_table_as_they_are():
     base, tool = pk.se3.exp([0, 0, 1, 0.1, 0.2, 0.3]), pk.se3.exp([0.5, 0, 0, 0, 0, 0.1])
-    placed = Table("standard", NOMINAL.rows, base=base, tool=tool)
+    placed = Table(
+        "standard", NOMINAL.rows, base=base, tool=tool, name="left", coupling="J3 = J2 + J3"
+    )
     table = ur.add_deltas(placed, delta_a=[1e-4, 0, 0, 0, 0, 0])
     np.testing.assert_array_equal(table.base, placed.base)
     np.testing.assert_array_equal(table.tool, placed.tool)
+    assert (table.name, table.coupling) == ("left", placed.coupling)
 
 
 def test_a_controller_s_file_is_read_and_moves_a_ur10_by_three_millimetres(tmp_path):

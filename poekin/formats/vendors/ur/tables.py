@@ -46,7 +46,7 @@ def add_deltas(
     Returns
     -------
     table : Table
-        Table of the same convention, base and tool.
+        Table of the same convention, base, tool, name and coupling.
 
     Raises
     ------
@@ -82,7 +82,14 @@ def add_deltas(
         replace(row, **{column: values[i] for column, values in columns.items()})
         for i, row in enumerate(table.rows)
     ]
-    return Table(table.convention, rows, base=table.base, tool=table.tool, name=table.name)
+    return Table(
+        table.convention,
+        rows,
+        base=table.base,
+        tool=table.tool,
+        name=table.name,
+        coupling=table.coupling,
+    )
 
 
 def from_dh(

@@ -91,7 +91,7 @@ def choose(found: Candidates) -> list[str]:
         for name in left:
             wider = found.fit.with_group(Q, name)
             errors = found.fit.held_out(wider)
-            if errors is not None and wider.shape[1] > Q.shape[1]:
+            if errors is not None:
                 tried[name] = (errors, wider)
         if not tried:
             break
