@@ -102,6 +102,16 @@ def test_each_target_of_a_batch_may_have_its_own_locked_value():
         ik_all(PANDA, T, lock={"panda_joint7": [0.1, 0.2, 0.3]})
 
 
+def test_each_target_of_a_batch_has_its_own_curves():
+    T = PANDA.fk(PANDA.random(2, 2))
+    found = ik_all(PANDA, T, n_swivel=16)
+    for k in range(2):
+        alone = ik_all(PANDA, T[k], n_swivel=16).families()
+        assert len(alone) > 1
+        for ours, curve in zip(found.families(k), alone, strict=True):
+            np.testing.assert_array_equal(ours, curve)
+
+
 def test_each_target_of_a_batch_has_its_own_locked_value_at_every_value_of_the_redundant_coordinate():
     rail = pk.Chain.from_space(np.vstack([pk.screw.prismatic([1, 0, 0]), srs().screws]), srs().home)
     q = rail.random(1, 2)
