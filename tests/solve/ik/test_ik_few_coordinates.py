@@ -103,6 +103,15 @@ def test_the_task_that_is_named_for_a_tilted_pose_solves_it(arm, seed, angle):
             assert repr(task) in found.summary(int(k))
 
 
+@pytest.mark.parametrize("pan, tasks", [(0.0, ("position",)), (1.0, ())])
+def test_a_task_that_only_a_locked_coordinate_could_do_is_not_named(pan, tasks):
+    arm = pk.load("ur5").chain()
+    q = [pan, -1.0, 1.2, 0.3, 0.4, 0.5]
+    lock = {arm.q_names[0]: 0.0} | {arm.q_names[k]: q[k] for k in (3, 4, 5)}
+    tilted = arm.fk(q) @ se3.exp([0.2, 0.3, 0.1, 0, 0, 0])
+    assert ik(arm, tilted, lock=lock).reachable_tasks == (tasks,)
+
+
 def test_what_is_solved_only_as_it_comes_to_rest_has_the_errors_of_a_solution():
     arm = planar([1.0, 0.7])
     found = ik(arm, arm.fk([[0.3, 0.9], [0.2, 0.8]]), q0=[0.1, 0.7], restarts=0, iterations=1)

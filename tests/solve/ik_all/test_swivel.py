@@ -102,6 +102,27 @@ def test_each_target_of_a_batch_may_have_its_own_locked_value():
         ik_all(PANDA, T, lock={"panda_joint7": [0.1, 0.2, 0.3]})
 
 
+def test_each_target_of_a_batch_has_its_own_curves():
+    T = PANDA.fk(PANDA.random(2, 2))
+    found = ik_all(PANDA, T, n_swivel=16)
+    for k in range(2):
+        alone = ik_all(PANDA, T[k], n_swivel=16).families()
+        assert len(alone) > 1
+        for ours, curve in zip(found.families(k), alone, strict=True):
+            np.testing.assert_array_equal(ours, curve)
+
+
+def test_each_target_of_a_batch_has_its_own_locked_value_at_every_value_of_the_redundant_coordinate():
+    rail = pk.Chain.from_space(np.vstack([pk.screw.prismatic([1, 0, 0]), srs().screws]), srs().home)
+    q = rail.random(1, 2)
+    T = rail.fk(q)
+    found = ik_all(rail, T, lock={"joint1": q[:, 0]}, n_swivel=3, all_revolutions=True)
+    for k, value in enumerate(q[:, 0]):
+        alone = ik_all(rail, T[k], lock={"joint1": value}, n_swivel=3, all_revolutions=True)
+        assert alone.counts > 0
+        np.testing.assert_allclose(found.of(k), alone.q, rtol=0, atol=1e-9)
+
+
 def test_a_locked_arm_with_a_closed_form_has_the_solutions_of_the_search():
     pytest.importorskip("eaik", reason="needs EAIK")
     chain = srs()

@@ -128,6 +128,15 @@ def test_a_calibrated_arm_is_told_the_nearest_with_parallel_axes_and_eliminated(
     ]
 
 
+def test_the_case_of_the_other_joints_is_that_of_the_nearest_arm():
+    arm = pk.load("puma560").chain()  # axes 1 and 2 intersect, those of the nearest arm do not
+    screws = arm.screws.copy()
+    screws[4] = pk.se3.adjoint(pk.se3.exp([0, 0, 0, 1e-3, 2e-3, 1e-3])) @ screws[4]
+    found = pk.ik_structure(arm.replace(screws=screws))
+    assert found.nearest is not None
+    assert found.first_joints == pk.ik_structure(found.nearest).first_joints == "general: a quartic"
+
+
 @given(seed=st.integers(0, 100))
 def test_a_wrist_with_errors_is_eliminated_and_its_other_joints_are_a_quartic(seed):
     found = pk.ik_structure(perturbed(pk.load("puma560").chain(), seed))

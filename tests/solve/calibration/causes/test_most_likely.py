@@ -117,6 +117,16 @@ def test_readings_some_rows_off_are_named_by_how_many(by):
     assert cause.words == f"each measurement {by:+d} rows of q further on"
 
 
+def test_exchanged_measurements_are_named_by_their_rows_of_q():
+    made = simulated(PUMA, 40, seed=1)
+    rows = np.arange(1, 40, 2)
+    T = made.measurements.T[rows]  # type: ignore[attr-defined]
+    T[[3, 10]] = T[[10, 3]]
+    cause = most_likely(MODEL, made.q, [Poses(T, rows=rows)])
+    assert cause is not None
+    assert cause.words == "the measurements of rows 7, 21 exchanged"
+
+
 @pytest.mark.parametrize(("size", "together"), [
     (Size(2.0, 0.3), 0.8), (Size(2.0), 0.5), (Size(0.0, 0.0), 1e-12),
 ])  # fmt: skip

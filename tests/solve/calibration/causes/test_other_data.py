@@ -109,3 +109,9 @@ def test_another_base_tool_device_or_point_is_the_one_that_moved_the_data():
     assert words == "the centre not known: centre=None"
     assert len(away.unknown_frames) == 1
     assert list(other_frames(away, T)) == []
+
+
+def test_another_base_is_that_of_the_rows_of_q_that_a_set_names():
+    X, rows = se3.exp([0.1, -0.2, 0.3, 0.05, -0.1, 0.2]), [2, 0, 3]
+    (_, moved), _ = other_frames(Poses(X @ T[rows], rows=rows), T)
+    np.testing.assert_allclose(moved.measured, T[rows], atol=1e-13)

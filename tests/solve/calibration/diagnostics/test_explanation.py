@@ -18,6 +18,8 @@ from poekin.solve.calibration import Calibration, Distances, EyeInHand, Points, 
 from poekin.solve.calibration.diagnostics import explanation
 from poekin.solve.calibration.diagnostics.explanation import Explanation, Size
 from poekin.solve.calibration.measurements.simulated import simulated
+from poekin.solve.calibration.model.error_model import ErrorModel
+from poekin.solve.calibration.model.problem import Problem
 from poekin.solve.calibration.model.residuals import Residuals
 from poekin.solve.calibration.report import toml_io
 
@@ -279,3 +281,24 @@ def test_distances_have_their_base_moved_by_how_far_their_centre_is():
     known = Distances([1.0], centre=[1.0, 2.0, 3.0])
     assert explanation._base(known, np.array([4.0, 6.0, 3.0])) == Size(5.0)
     assert explanation._base(Distances([1.0]), np.zeros(3)) is None
+
+
+def test_the_point_that_distances_are_of_is_no_other_tool():
+    q = PANDA.random(1, 40)
+    T, centre = PANDA.fk(q), np.array([1.0, 1.5, 0.5])
+    d = np.linalg.norm(T[:, :3, :3] @ TOOL + T[:, :3, 3] - centre, axis=1)
+    told = Distances(d, centre - [0.3, 0, 0.4], point=TOOL)
+    found = explanation.explained(Problem(ErrorModel(PANDA, ("home",), None), q, [told]), 0)
+    assert found is not None
+    assert found.base is not None
+    assert found.base.length == pytest.approx(0.5)
+    assert found.tool.length < 1e-9
+
+
+def test_base_and_tool_are_those_at_the_rows_of_q_that_a_set_names():
+    q, rows = PANDA.random(1, 40), np.arange(1, 40, 2)
+    told = Poses(X @ PANDA.fk(q[rows]) @ Z, rows=rows)
+    found = explanation.explained(Problem(ErrorModel(PANDA, ("home",), None), q, [told]), 0)
+    assert found is not None
+    assert found.tool.angle == pytest.approx(explanation.size_of(Z).angle)
+    assert found.left.length < 1e-9

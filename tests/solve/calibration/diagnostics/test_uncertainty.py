@@ -173,6 +173,11 @@ def test_frames_of_several_sets_and_shared_frames_are_found_by_set():
     np.testing.assert_allclose(
         replace(result, frames=frames).measurement_covariance(Q, sets[0]), first
     )
+    frames = dict(result.frames)
+    frames["T_base_board of measurement set 0"] = frames["T_base_board of measurement set 1"]
+    np.testing.assert_allclose(
+        replace(result, frames=frames).measurement_covariance(Q, sets[1], 1), second
+    )
 
 
 def test_what_does_not_fit_is_refused():

@@ -144,6 +144,15 @@ def test_a_zero_of_more_than_three_degrees_is_a_reason(reasons):
         ] * said
 
 
+def test_the_zero_of_a_slide_is_no_angle(reasons):
+    arm = pk.load("stanford").chain()  # joint 3 slides
+    made = simulated(arm, 20, seed=2)
+    found = calibrate(arm, made.q, made.measurements.T, parameters="offsets", folds=0)  # type: ignore[attr-defined]
+    values = np.array([0, 0, 0.1, 0.1, 0, 0])
+    words = reasons(replace(found, values=values), to_hold_out=False)
+    assert [w for w in words if "zero" in w] == ["the zero of joint4 moves by 5.73°"]
+
+
 def test_a_bad_condition_is_a_reason_with_the_prior_that_mends_it(reasons):
     values = np.array([10.0, 1e-3])
     for condition, said in ((999.5, 0), (1000.5, 1)):

@@ -260,6 +260,17 @@ def test_offsets_are_in_rad_or_m_as_their_coordinates_are_and_gains_in_neither()
     assert [p.name for p in ErrorModel(tied, ("offsets",), [tied.joint_names[2]]).parameters] == [
         "a: offset"
     ]
+    # also one that moves them in opposite directions
+    opposed = pk.Chain.from_space([turn, turn], np.eye(4), coupling=[[1], [-1]], q_names=["a"])
+    found = ErrorModel(opposed, ("offsets", "gains", "lag"), None).parameters
+    assert [p.name for p in found] == ["a: offset", "a: gain", "a: lag"]
+
+
+def test_offsets_leave_the_own_limits_of_joints_of_coupled_readings():
+    nominal = PUMA.coupled("J3 = J2 + J3")
+    assert np.isfinite(nominal.joint_limits).any()
+    found = ErrorModel(nominal, ("offsets",), None).chain(np.full(6, 0.1))
+    np.testing.assert_array_equal(found.joint_limits, nominal.joint_limits)
 
 
 def test_offsets_and_gains_leave_the_limits_and_the_constants_of_the_nominal_arm():

@@ -18,7 +18,7 @@ import poekin as pk
 from poekin import html_page
 from poekin.errors import FileError, MissingExtra, ShapeError
 from poekin.groups import se3
-from poekin.solve.calibration import Distances, Points, calibrate
+from poekin.solve.calibration import Distances, Points, Poses, calibrate
 from poekin.solve.calibration.diagnostics.effects.diagnosis import SavedEvidence
 from poekin.solve.calibration.measurements.simulated import simulated
 from poekin.solve.calibration.report import changes, html_report, pendant, plots
@@ -473,6 +473,18 @@ def test_a_calibration_out_of_a_file_says_that_it_has_no_measurements(found, und
     text = html_report.html(dataclasses.replace(found, residuals=None, evidence=None))
     assert "A calibration out of a file has no measurements to be looked at." in text
     assert "A calibration out of a file does not say which of their numbers are held." in text
+
+
+def test_an_outlier_is_from_the_source_of_its_row_of_q():
+    q = ARM.random(1, 60)
+    rows = np.arange(1, 60, 2)
+    T = ARM.fk(q[rows])
+    T[:, :3, 3] += np.random.default_rng(1).normal(scale=1e-4, size=(30, 3))
+    T[4, 0, 3] += 0.01
+    poses = Poses(T, covariance=np.diag([1e-8] * 6), rows=rows)
+    found = calibrate(ARM, q, poses, parameters=("home",), loss="huber", folds=0)
+    assert found.outliers == (Outlier(0, 4, 9),)
+    assert "x.csv:9<" in "".join(html_report._outliers(found, [f"x.csv:{k}" for k in range(60)]))
 
 
 def test_outliers_and_parameters_stand_in_rows_with_their_errors_and_sources(found, tables, text):

@@ -56,6 +56,16 @@ def test_repeated_readings_are_held_out_together():
     assert found.held_out(columns).lengths.shape == (30,)
 
 
+def test_an_error_counts_for_the_configuration_at_the_row_that_its_measurement_names():
+    q = np.concatenate([MADE.q[[0, 0]], MADE.q[:30]])
+    p = np.concatenate([MADE.points.p[[0, 0]], MADE.points.p[:30]])
+    rows = np.arange(32)[::-1]
+    both = Points(p, MADE.points.points), Points(p[rows], MADE.points.points, rows=rows)
+    found = [linear(*fitted([points], q=q)) for points in both]
+    in_order, named = (one.held_out(one.nothing).lengths for one in found)
+    np.testing.assert_allclose(named, in_order, rtol=1e-6)
+
+
 def test_what_one_fold_alone_knows_cannot_be_held_out():
     problem, fit = fitted([MADE.points])
     q = np.array(MADE.q)

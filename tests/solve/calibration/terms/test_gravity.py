@@ -85,6 +85,13 @@ def test_a_torque_is_that_of_the_mass_in_newton_metres():
     np.testing.assert_allclose(model.basis(np.zeros((1, 1))), [[[1.5 * STANDARD_GRAVITY]]])
 
 
+def test_a_torque_is_that_at_the_joint_s_own_zero():
+    level = pk.screw.revolute([0, 1.0, 0], [0, 0, 0])
+    chain = pk.Chain.from_space([level], np.eye(4), masses=[[3.0, 0.5, 0, 0]], offset=[0.4])
+    found = ErrorModel(chain, ("compliance",), None).basis(np.array([[0.3]]))
+    np.testing.assert_allclose(found, [[[1.5 * STANDARD_GRAVITY * np.cos(0.7)]]])
+
+
 def test_gravity_is_that_of_the_general_conference_of_1901():
     assert STANDARD_GRAVITY == 9.80665
 

@@ -169,6 +169,14 @@ def test_points_that_are_not_known_are_shifted_as_those_that_are(problem):
         np.testing.assert_allclose(own, shifted(problem, j), rtol=0, atol=TOL)
 
 
+def test_points_are_shifted_in_the_axes_of_the_tool_at_the_rows_of_q_that_their_set_names():
+    q, rows = ARM.random(0, 6), [5, 3, 4]
+    plate = Points(np.zeros((3, 2, 3)), [[0, 0, 0], [0.1, 0, 0]], rows=rows)
+    problem = Problem(ErrorModel(ARM, ("home",), None), q, [plate])
+    found = point_shifts(problem, np.zeros(6), 0)
+    np.testing.assert_allclose(found[:, 3:, 3:], ARM.fk(q[rows])[:, :3, :3], rtol=0, atol=1e-12)
+
+
 def test_one_set_stands_nowhere_else_and_its_reflectors_need_no_number(problem):
     measured = problem.sets[1].measured
     alone = Problem(
