@@ -9,7 +9,7 @@ from ...errors import InputError, UnknownName, join_names, quote, suggest
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.sampling import sampling_range
-from ..joint_units import bounds, period, periods
+from ..joint_units import bounds, joint_units, period, periods
 from ..lock import free_chain
 
 N_SWIVEL = 64
@@ -98,17 +98,20 @@ def curves(chain: Chain, q: Array, sample: np.ndarray, redundant: str) -> list[A
     redundant coordinate, the longest first.
     """
     k = chain.q_names.index(redundant)
-    turn = periods(chain)
-    v = _null_vectors(chain.jacobian(q, frame="hybrid"))
+    units = joint_units(chain.compile(), locked=True)
+    arm = units.fast.chain
+    u = units.of(q)
+    turn = periods(arm)
+    v = _null_vectors(arm.jacobian(u, frame="hybrid"))
     with np.errstate(divide="ignore", invalid="ignore"):
-        tangent = v / v[:, k : k + 1]  # dq / dq_k
+        tangent = v / v[:, k : k + 1]  # du / du_k
     following = np.full(len(q), -1)
     for number in np.unique(sample):
         here = np.flatnonzero(sample == number)
         there = np.flatnonzero(sample == number + 1)
         if len(there):
             tangents = (tangent[here], tangent[there])
-            i, j = _links(q[here], q[there], *tangents, k, turn)
+            i, j = _links(u[here], u[there], *tangents, k, turn)
             following[here[i]] = there[j]
     first = np.setdiff1d(np.arange(len(q)), following)
     found = [q[_chained(row, following)] for row in first.tolist()]

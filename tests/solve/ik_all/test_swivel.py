@@ -215,6 +215,16 @@ def test_curves_of_self_motion_hold_every_solution_once_and_stay_at_the_target_b
         assert (off <= 0.5 * PANDA.reach * (change**2).sum(axis=1)).all()
 
 
+def test_curves_of_self_motion_are_the_same_whatever_the_unit_of_the_coordinates():
+    arm = PANDA.replace(limits=None)
+    degrees = arm.replace(coupling=np.eye(7) * np.pi / 180)
+    T = arm.fk(Q)
+    ours, theirs = (ik_all(one, T, n_swivel=16).families() for one in (arm, degrees))
+    assert max(map(len, ours)) > 4
+    for curve, other in zip(ours, theirs, strict=True):
+        np.testing.assert_allclose(np.radians(other), curve, rtol=0, atol=1e-9)
+
+
 def test_where_solutions_of_two_curves_are_exchanged_they_are_not_linked():
     chain = srs()
     found = ik_all(chain, chain.fk([0.3, 0.5, 0.2, -1.0, 0.4, 0.7, 0.1]), redundant="joint7")

@@ -42,6 +42,8 @@ def optimise(
     start = q[known]
     near = q0[known]
     near = np.where(np.isnan(near), start, near)
+    if objective == "nearest":
+        start = problem.domain.wrapped(start, near)
     aim = make_aim(problem, near, objective)
     best[known] = _improved(aim, targets[known], start)
     return best

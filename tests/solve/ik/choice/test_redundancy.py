@@ -31,6 +31,16 @@ def test_only_a_coordinate_with_two_limits_has_a_middle():
     np.testing.assert_allclose(found.q, [0, 2, 0.5, 0.5], rtol=0, atol=1e-3)
 
 
+@pytest.mark.parametrize("limit", [np.inf, 10.0])
+def test_the_nearest_to_q0_is_not_a_whole_turn_away_from_it(limit):
+    arm = pk.load("panda").chain(tip="panda_hand").replace(limits=[[-limit, limit]] * 7)
+    for turns in (0.0, 2 * np.pi):
+        q0 = np.array([5.0 - turns, -0.5, 0.2, -2.0, 0.3, 1.6, 0.8 + turns])
+        found = ik(arm, arm.fk(q0 + 0.05), q0=q0, secondary_objective="nearest")
+        assert found.success
+        assert np.abs(found.q - q0).max() < 0.1
+
+
 @pytest.mark.parametrize("length", [1.0, 2.0])
 def test_a_step_that_is_too_long_is_made_shorter(length):
     # a table that slides far to the side: what brings the slides back turns the tip about a circle
@@ -190,7 +200,7 @@ def test_an_aim_is_served_in_25_steps_each_half_as_long_after_one_that_is_no_bet
     monkeypatch.setattr(redundancy.Aim, "moved", moved)
     monkeypatch.setattr(redundancy.Aim, "value", lambda *_: np.array(next(values)))
     q = np.zeros((3, 2))
-    stub: Any = SimpleNamespace(solve=solve)
+    stub: Any = SimpleNamespace(solve=solve, domain=SimpleNamespace(wrapped=lambda q, near: q))
     found = redundancy.optimise(stub, np.zeros((3, 4, 4)), q, np.full((3, 2), np.nan), "nearest")
     assert asked == [(3, [0, 1, 2], 0)] * 25
     assert found.tolist() == [[2, 2], [0, 0], [0, 0]]
@@ -210,7 +220,7 @@ def test_of_bad_targets_nothing_is_asked(monkeypatch):
     monkeypatch.setattr(redundancy.Aim, "moved", lambda aim, q, *_: q - 1.0)
     monkeypatch.setattr(redundancy.Aim, "value", lambda aim, q: q[:, 0])
     q, T = np.array([[5.0], [np.nan], [7.0]]), np.arange(3.0)[:, None, None] * np.ones((3, 4, 4))
-    stub: Any = SimpleNamespace(solve=solve)
+    stub: Any = SimpleNamespace(solve=solve, domain=SimpleNamespace(wrapped=lambda q, near: q))
     found = redundancy.optimise(stub, T, q, q, "nearest")
     np.testing.assert_array_equal(found, [[-20], [np.nan], [-18]])
     assert asked == [[0, 2]] * 25
