@@ -131,6 +131,13 @@ def test_well_known_arms_are_known():
     assert not panda.has("spherical wrist")
 
 
+def test_axes_lie_as_they_do_where_the_coordinates_are_zero_and_not_where_the_joints_are():
+    bent = made(*SHOULDER).replace(offset=[0.0, 0.3, 0.0])
+    first_and_third = axes(bent).pairs[1]
+    assert (first_and_third.first, first_and_third.second) == (1, 3)
+    assert first_and_third.angle == pytest.approx(math.pi / 2 - 0.3)
+
+
 def test_prismatic_axes_have_no_place():
     chain = Chain.from_space(
         [screw.prismatic([0, 0, 1]), screw.revolute([1, 0, 0], [0, 1, 0])], np.eye(4)

@@ -218,6 +218,12 @@ def test_a_text_a_path_a_name_and_a_robot_are_validated_alike(tmp_path):
     assert validate("panda", samples=5).passed
 
 
+def test_a_robot_with_coupled_readings_is_validated_by_its_joints():
+    coupled = load("ur5e").coupled("elbow_joint = elbow_joint + shoulder_lift_joint")
+    assert coupled.coupling
+    assert validate(coupled, samples=3).passed
+
+
 def test_the_same_seed_gives_the_same_result_and_another_one_another():
     first, again, other = (
         validate(URDF, samples=5),

@@ -25,6 +25,7 @@ from benchmarks.planted_changes import (
 )
 from poekin.analysis.compare.alignment.lines import lines
 from poekin.analysis.compare.compare import compare
+from poekin.analysis.compare.mistakes.mirror import mirrored
 from poekin.errors import InputError
 from poekin.formats import dh
 from poekin.formats.load import load
@@ -218,6 +219,13 @@ def test_strict_shows_the_joints_as_they_stand_and_comes_to_the_same_verdict():
     (zero, *behind) = compare(chain, others["zero"], strict=True).differing
     assert (zero.number, zero.axis_differs, zero.zero_differs) == (4, True, False)
     assert [joint.number for joint in behind] == [5, 6]
+
+
+def test_a_strict_comparison_leaves_the_base_where_it_stands():
+    chain = arm("ur5e")
+    moved = compare(chain, chain.rebased(se3.exp([0, 0, 0, 1e-3, 0, 0])), strict=True, samples=1)
+    assert "the base frame is moved by 1 mm" in moved.verdict
+    assert moved.base == pytest.approx(np.eye(4), abs=1e-15)
 
 
 def test_limits_are_compared_in_the_other_models_zero_and_direction():
@@ -531,6 +539,32 @@ def test_numbers_of_joints_that_do_not_fit_are_said_whole(numbers, verdict):
         7,
         3,
     )
+
+
+def test_a_model_that_no_dropped_joints_match_is_at_rest_as_any_other():
+    turned = random_arm(2, ("revolute",) * 5).replace(offset=np.full(5, 0.3))
+    found = compare(random_arm(1, ("revolute",) * 4), turned, samples=1)
+    assert (found.joints, found.b.offset.any()) == ((), False)
+    assert found.b.fk(np.zeros(5)) == pytest.approx(turned.fk(np.zeros(5)))
+
+
+def test_pose_errors_of_a_mirrored_model_are_first_those_of_the_file_as_it_stands():
+    chain = arm("ur5e")
+    other = mirrored(chain, "y")
+    found = compare(chain, other, samples=5)
+    q = chain.random(0, 5)
+    gaps = chain.fk(q)[:, :3, 3] - other.fk(q)[:, :3, 3]
+    assert found.mistake == "mirrored"
+    assert found.before is not None
+    assert found.before.worst_position == pytest.approx(np.linalg.norm(gaps, axis=1).max())
+
+
+def test_a_mirrored_model_is_named_too_where_its_joints_are_not_at_0_as_its_coordinates_are():
+    chain = arm("ur5e")
+    offset = np.array([0.1, 0.2, -0.3, 0.4, 0.5, -0.6])
+    other = mirrored(chain, "y").rezeroed(-offset).replace(offset=offset)
+    found = compare(chain, other, samples=1)
+    assert (found.mistake, found.differing) == ("mirrored", ())
 
 
 @pytest.mark.parametrize("share", [0.9996, 1.0004])

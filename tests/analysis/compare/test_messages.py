@@ -244,6 +244,12 @@ def test_another_explanation_has_its_zero_offset_in_b_whichever_model_that_is():
         assert words.startswith(f"a zero offset of {offset} of joint 2 ('joint2'), with the base")
 
 
+def test_other_readings_name_joints_as_the_first_model_does():
+    other = UR.rezeroed([0.1, 0, 0, 0, 0, 0]).replace(joint_names=list("abcdef"), limits=UR.limits)
+    (sentence,) = compare(UR, other, samples=1).alternatives
+    assert f"the axis of joint 1 ('{UR.joint_names[0]}')" in sentence
+
+
 def test_the_verdict_says_what_is_the_same_what_differs_and_what_was_aligned():
     base, tool = pk.se3.exp([0, 0, np.radians(10), 0, 0, 0]), pk.se3.exp([0, 0, 0, 0.05, 0, 0])
     S = UR.screws.copy()
@@ -328,6 +334,14 @@ def test_behind_another_link_only_what_differs_by_itself_is_said():
     reversed_too = (*joints[:4], replace(joints[4], reversed=True))
     _, fifth = messages.joint_findings(reversed_too, TOL, Said(), 2)
     assert fifth == "joint 5 ('a5') has the sign of q flipped"
+
+
+def test_a_zero_of_the_first_joint_behind_another_link_is_said_once():
+    joints = tuple(in_si(TURNS, number=k, axis_differs=k > 1, angle=1.0) for k in (1, 2, 3))
+    zero = in_si(joints[1], zero_differs=True, zero_offset=5.0)
+    link, second = messages.joint_findings((joints[0], zero, joints[2]), TOL, Said(), 1)
+    assert link.endswith("joint 2 has an axis that is turned by 1° from the other model's")
+    assert second == "joint 2 ('arm') has its zero 5° elsewhere"
 
 
 @pytest.mark.parametrize("kind, moved, said", [

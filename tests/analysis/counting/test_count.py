@@ -130,6 +130,16 @@ def test_general_links_with_two_planar_rotations_keep_the_bar(n, frame):
         assert numbers(cost) == (144, 81)
 
 
+@pytest.mark.parametrize("n", [3, 6, 9])
+def test_the_pose_costs_the_structured_way_one_link_more(n):
+    alone, both = (
+        pk.count(arm("r" * n), method="structured", frame="space", pose=pose)
+        for pose in (False, True)
+    )
+    assert both.multiplications - alone.multiplications == 21
+    assert both.additions - alone.additions == 12
+
+
 def test_prismatic_helical_and_mixed_joints_are_counted():
     # an adjoint of (0; v) is R v: 9 and 6; a column of a sliding joint is a column of R
     assert counts(arm("pp"), "direct", "body", "paper") == (9, 6)
@@ -567,6 +577,13 @@ def test_the_links_of_a_form_turn_or_slide_as_their_joint_does(kind):
         assert np.linalg.norm(
             pk.se3.log(moved)[slice(0, 3) if kind == "revolute" else slice(3, 6)]
         ) == pytest.approx(0.7)
+
+
+@pytest.mark.parametrize("form, zeros", [("paul_link", [6]), ("craig_link", [2])])
+def test_the_link_of_a_slide_is_turned_about_its_axis_by_a_general_angle(form, zeros):
+    motion = count_scalars.JointMotion("prismatic", 0.4, 0.0, 1.0, 0.4)
+    T = getattr(count_scalars, form)(motion, count_scalars.generator())
+    assert np.flatnonzero(np.array(T[:9]) == 0).tolist() == zeros
 
 
 METHODS_SAID = ", ".join(METHODS)

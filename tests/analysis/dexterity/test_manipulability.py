@@ -120,6 +120,14 @@ def test_lengths_in_other_units_change_the_six_rows_only():
     assert decimetres.to_dict()["rotation"] == metres.to_dict()["rotation"]
 
 
+def test_the_gradient_of_the_six_rows_has_the_unit_of_length_that_is_asked_for():
+    arm, q = pk.load("ur5e").chain(tip="tool0"), [0.1, -0.7, 0.9, 0.4, 0.8, 0.2]
+    metres = manipulability_gradient(arm, q)
+    np.testing.assert_allclose(
+        manipulability_gradient(arm, q, length=0.1), 1000 * metres, rtol=1e-9, atol=1e-12
+    )
+
+
 def test_batches_have_their_shapes_and_nan_stays_where_it_is():
     arm = planar(0.4, 0.3, 0.2)
     for shape in ((), (0,), (3, 1, 2)):

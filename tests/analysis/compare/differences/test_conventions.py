@@ -153,3 +153,9 @@ def test_a_model_that_bounds_no_joint_states_no_limits():
     assert not any("states no limits" in text for text in result.findings)
     none = Chain.from_space(np.zeros((0, 6)), np.eye(4))
     assert compare(none, none, samples=1).findings == ()
+
+
+def test_that_a_model_states_no_limits_is_said_only_where_limits_count_and_differ():
+    bare = Chain.from_space(UR.screws, UR.home, joint_names=UR.joint_names)
+    assert compare(bare, bare, samples=1).findings == ()
+    assert compare(UR, bare, samples=1, same=("base",)).findings == ()

@@ -46,6 +46,15 @@ def test_each_joint_has_its_own_effect():
     assert result.joints[3].effect == pytest.approx(apart(chain, other, q), rel=1e-6)
 
 
+def test_a_joint_both_reversed_and_at_another_zero_has_the_effect_of_both():
+    chain = random_arm(1)
+    rng = np.random.default_rng(0)
+    other = planted(planted(chain, "zero", 2, rng), "flip", 2, rng)
+    joint = compare(chain, other, samples=20).joints[2]
+    assert (joint.reversed, joint.zero_differs) == (True, True)
+    assert joint.effect == pytest.approx(apart(chain, other, chain.random(0, 20)), rel=1e-6)
+
+
 def test_another_kind_has_no_effect_that_could_be_told():
     chain = random_arm(1)
     screws = chain.screws.copy()

@@ -56,6 +56,19 @@ def test_one_angle_that_differs_says_it_alone_be_it_sharp_or_blunt(tmp_path, deg
     assert (in_degrees(right, wrong), in_degrees(wrong, right)) == ("b", "a")
 
 
+def test_a_slide_is_turned_by_degrees_in_rpy_as_any_other_joint():
+    def turned(angle):
+        rows = [
+            pk.screw.revolute([0, 0, 1], [0, 0, 0]),
+            pk.screw.prismatic([0, np.sin(angle), np.cos(angle)]),
+            pk.screw.revolute([1, 0, 0], [0.3, 0, 0]),
+        ]
+        return pk.Chain.from_space(rows, np.eye(4))
+
+    right, wrong = turned(np.radians(30.0)), turned(30.0)
+    assert (in_degrees(right, wrong), in_degrees(wrong, right)) == ("b", "a")
+
+
 @pytest.mark.parametrize("name", ["panda", "ur5e", "random 6a"])
 @pytest.mark.parametrize("change", ["tilt", "shift", "zero"])
 def test_what_differs_otherwise_is_not_called_so(name, change):
