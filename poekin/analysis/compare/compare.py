@@ -236,7 +236,9 @@ def _compared(
         joints=joints,
         base=reading.base,
         before=_before(pair),
-        alternatives=tuple(equivalents(pair.a, pair.b, reading, found.others, asked.tol)),
+        alternatives=tuple(
+            equivalents(pair.a, pair.b, pair.numbers, reading, found.others, asked.tol)
+        ),
         unmatched_joints=pair.extra,
         aligned_to=found.aligned_to,
         mistake=mistake.name,

@@ -23,7 +23,7 @@ class JointComparison(Result):
     Attributes
     ----------
     number : int
-        Number of the joint, from 1.
+        Number of the joint in model a, from 1.
     name_a, name_b : str
         Names of the joint in the two models.
     kind_a, kind_b : str

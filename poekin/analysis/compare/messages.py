@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -84,12 +85,12 @@ def joint_findings(
         first = behind[0]
         only_axis = replace(first, zero_differs=False, reversed=False, coupling_differs=False)
         found.append(
-            f"the link between joint {link} ({quote(joints[link - 1].name_a)}) and joint {link + 1} "
-            f"({quote(joints[link].name_a)}) differs: from joint {first.number} on the axes have moved together, and "
+            f"the link between {_named(joints[link - 1])} and {_named(joints[link])} differs: from joint"
+            f" {first.number} on the axes have moved together, and "
             f"joint {first.number} {joint_words(only_axis, tol)}"
         )
-    for joint in joints:
-        if link and joint.number > link and joint.number not in said.apart:
+    for k, joint in enumerate(joints):
+        if 0 < link <= k and joint.number not in said.apart:
             joint = replace(joint, axis_differs=False)
         words = [joint_words(joint, tol)]
         if words[0]:
@@ -100,8 +101,12 @@ def joint_findings(
             words.append(f"is called {quote(joint.name_b)} in model b")
         clause = ", and ".join(filter(None, words))
         if clause:
-            found.append(f"joint {joint.number} ({quote(joint.name_a)}) {clause}")
+            found.append(f"{_named(joint)} {clause}")
     return found
+
+
+def _named(joint: JointComparison) -> str:
+    return f"joint {joint.number} ({quote(joint.name_a)})"
 
 
 ARTICLES = {"lower": "a", "upper": "an"}
@@ -195,6 +200,7 @@ def degree_words(model: str) -> str:
 def equivalents(
     a: Chain,
     b: Chain,
+    numbers: Iterable[int],
     first: Hypothesis,
     others: list[Hypothesis],
     tol: Tolerances,
@@ -203,19 +209,18 @@ def equivalents(
     may be implicated.
     """
     said = []
-    names = list(map(quote, a.joint_names))
+    named = zip(numbers, a.joint_names, strict=True)
+    names = [f"joint {number} ({quote(name)})" for number, name in named]
     units: list[Unit] = [joint_unit(kind) for kind in b.kinds]
     for frame, k, z in end_turns(a, b, first, tol):
         far = amount(z, units[k])
         said.append(
-            f"the {frame} moved by {far} along or about the axis of joint {k + 1} ({names[k]}) is the "
+            f"the {frame} moved by {far} along or about the axis of {names[k]} is the "
             f"same as a zero offset of {far} of that joint"
         )
     k = first.link
     if k and a.kinds[k] == "prismatic" and not first.moved[k]:
-        said.append(
-            f"the link behind joint {k + 1} ({names[k]}), which slides, explains it as well"
-        )
+        said.append(f"the link behind {names[k]}, which slides, explains it as well")
     for other in others:
         (k,) = np.flatnonzero(other.implicated)
         change = "the other direction"
@@ -226,7 +231,7 @@ def equivalents(
         if other.offset[k]:
             change += f" of {amount(other.zeros[k], units[k])}"
         said.append(
-            f"{change} of joint {k + 1} ({names[k]}), with the base and tool frames "
+            f"{change} of {names[k]}, with the base and tool frames "
             "aligned to that, explains it as well"
         )
     return said

@@ -47,11 +47,6 @@ class JointDomain:
     def _has_locked(self) -> bool:
         return bool(self.locked.any())
 
-    @cached_property
-    def has_unbounded_angle(self) -> bool:
-        """Whether any coordinate with a period has no limits."""
-        return bool(self.unbounded_periods.any())
-
     def anywhere(self, count: int) -> Array:
         """Starts of tries (count, m): NaN, for anywhere, but for what is locked."""
         return np.tile(self.locked_values, (count, 1))

@@ -52,7 +52,7 @@ def solve(
         u, info = problem.solve(rows, np.arange(count, dtype=float), first)
     else:
         u, info = _in_parts(problem, rows, first, near, objective, progress)
-    if problem.domain.has_unbounded_angle and near is None and objective != "nearest":
+    if near is None and objective != "nearest":
         u = problem.domain.principal(u)
     q = problem.coordinates(u)
     errors, success = problem.pose_errors(rows, q)

@@ -137,7 +137,8 @@ class PathResult(Result):
         if self.times is None:
             return None
         dt = np.diff(self.times)
-        return np.diff(self.q, axis=0) / dt[:, None]
+        with np.errstate(divide="ignore", invalid="ignore"):  # of equal times
+            return np.diff(self.q, axis=0) / dt[:, None]
 
     @cached_property
     def accelerations(self) -> Array | None:

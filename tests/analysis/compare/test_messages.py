@@ -57,7 +57,9 @@ def test_another_reading_says_the_size_of_its_zero_offset(kind, words):
         np.eye(4), np.eye(4), np.zeros(n), ones, marks, marks, chain.screws, np.zeros(n), 0
     )
     other = replace(same, zeros=zero * (np.arange(n) == k), offset=np.arange(n) == k)
-    (sentence,) = messages.equivalents(chain, chain, same, [other], Tolerances(1e-5, 1e-5))
+    (sentence,) = messages.equivalents(
+        chain, chain, range(1, n + 1), same, [other], Tolerances(1e-5, 1e-5)
+    )
     assert sentence.startswith(f"{words} of joint 2 ('joint2'), ")
 
 
@@ -181,7 +183,7 @@ def test_a_frame_moved_along_or_about_an_end_joint_is_its_zero_offset(kind, size
 
     def said(**changes):
         words = messages.equivalents(
-            chain, chain, replace(same, **changes), [], Tolerances(1e-6, 1e-6)
+            chain, chain, (1, 2, 3), replace(same, **changes), [], Tolerances(1e-6, 1e-6)
         )
         return [line.replace("-180", "180") for line in words]
 
@@ -208,7 +210,7 @@ def test_a_moved_frame_has_the_unit_of_its_own_end_joint():
             pk.se3.exp(0.1 * rows[0]), pk.se3.exp(0.1 * rows[1]), np.zeros(2), np.ones(2), marks, marks,
             chain.screws, np.zeros(2), 2,
         )  # fmt: skip
-        first, last = messages.equivalents(chain, chain, moved, [], Tolerances(1e-6, 1e-6))
+        first, last = messages.equivalents(chain, chain, (1, 2), moved, [], Tolerances(1e-6, 1e-6))
         assert first.startswith(f"the base moved by {base} along")
         assert last.startswith(f"the tool moved by {tool} along")
 
@@ -224,7 +226,7 @@ def test_other_readings_say_which_joint_is_to_blame_instead_and_for_what():
         replace(same, zeros=0.1 * at, offset=at), replace(same, zeros=0.1 * at, offset=at, moved=at),
     ]  # fmt: skip
     end = " of joint 3 ('last'), with the base and tool frames aligned to that, explains it as well"
-    assert messages.equivalents(chain, chain, same, others, Tolerances(1e-6, 1e-6)) == [
+    assert messages.equivalents(chain, chain, (1, 2, 3), same, others, Tolerances(1e-6, 1e-6)) == [
         f"{words}{end}" for words in ("another axis", "the other direction", "a zero offset of 5.73°",
                                       "another axis of 5.73°")
     ]  # fmt: skip
@@ -360,8 +362,8 @@ def test_a_link_in_front_of_a_slide_that_did_not_move_may_be_the_one_behind_it(
         np.eye(4), np.eye(4), np.zeros(4), np.ones(4), at, none, chain.screws, np.zeros(4), 0, k
     )
     sentence = f"the link behind joint {k + 1} ('{'abcd'[k]}'), which slides, explains it as well"
-    assert messages.equivalents(chain, chain, linked, [], TOL) == [sentence] * said
-    assert messages.equivalents(chain, chain, replace(linked, link=0), [], TOL) == []
+    assert messages.equivalents(chain, chain, range(1, 5), linked, [], TOL) == [sentence] * said
+    assert messages.equivalents(chain, chain, range(1, 5), replace(linked, link=0), [], TOL) == []
 
 
 def screw_of(kind):

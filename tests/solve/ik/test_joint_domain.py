@@ -71,13 +71,14 @@ def test_a_domain_has_what_its_limits_and_locks_say_in_joint_units():
     np.testing.assert_allclose(found.ranges, [[-1, 2], [-np.pi, np.pi]])
     np.testing.assert_allclose(found.periods, [2 * np.pi] * 2)
     np.testing.assert_array_equal([found.locked, found.locked_values], [[1, 0], [1.5, np.nan]])
-    assert found.has_unbounded_angle
+    assert found.unbounded_periods.tolist() == pytest.approx([0, 2 * np.pi])
     free = make_joint_domain(units, None, False)
     np.testing.assert_array_equal(free.limits, np.tile([-np.inf, np.inf], (2, 1)))
     np.testing.assert_allclose(free.ranges, np.tile([-np.pi, np.pi], (2, 1)))
-    assert (free.has_unbounded_angle, free.locked.any()) == (True, False)
+    assert free.unbounded_periods.all()
+    assert not free.locked.any()
     narrow = room(limits=[[-1, 1], [0, 1]])
-    assert not narrow.has_unbounded_angle
+    assert not narrow.unbounded_periods.any()
     assert narrow.contains(np.array([[-1, 0], [1, 1], [1.1, 0.5], [0, -0.1]])).tolist() == [
         True,
         True,
@@ -94,7 +95,7 @@ def test_a_slide_without_limits_is_begun_within_a_metre_either_way():
     np.testing.assert_allclose(found.ranges, [[-np.pi, np.pi], [-1, 1]])
     np.testing.assert_allclose(found.periods, [2 * np.pi, 0])
     alone = joint_units(pk.Chain.from_space([screw.prismatic([1.0, 0, 0])], np.eye(4)).compile())
-    assert not make_joint_domain(alone, None, True).has_unbounded_angle
+    assert not make_joint_domain(alone, None, True).unbounded_periods.any()
 
 
 @pytest.mark.parametrize("lock, error, words", [

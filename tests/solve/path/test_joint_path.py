@@ -71,3 +71,12 @@ def test_times_that_run_backwards_or_are_not_finite_are_refused(times):
     ):
         joint_path(ARM, np.zeros((3, 7)), np.array(times))
     assert len(joint_path(ARM, np.zeros((3, 7)), np.array([0.0, 1.0, 1.0])).q) == 3
+
+
+@pytest.mark.filterwarnings("error")
+def test_two_configurations_at_one_time_are_no_cause_of_a_warning_of_numpy():
+    q = np.array([0.0, 0.1, 0.1, 0.3])[:, None] * np.ones(7)
+    path = joint_path(ARM, q, np.array([0.0, 1.0, 1.0, 1.0]))
+    assert path.rates is not None
+    np.testing.assert_allclose(path.rates[:, 0], [0.1, np.nan, np.inf])
+    assert path.summary()

@@ -20,8 +20,6 @@ def joint_effects(
     A joint that is of another kind has no effect that could be told: NaN.
     """
     poses = a.fk(x)
-    axes = reading.axes.copy()
-    axes[:, 3:] += b.pitches[:, None] * axes[:, :3]
     found = []
     for k, changes in enumerate(reading.changes.T):
         if a.kinds[k] != b.kinds[k]:
@@ -34,7 +32,7 @@ def joint_effects(
         if reading.moved[k]:
             screws = a.screws.copy()
             pitches = a.pitches.copy()
-            screws[k] = reading.directions[k] * axes[k]
+            screws[k] = reading.directions[k] * reading.axes[k]
             pitches[k] = b.pitches[k]
             arm = Chain.from_space(screws, a.home, pitches=pitches)
         values = x.copy()

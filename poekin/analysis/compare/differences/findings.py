@@ -42,7 +42,7 @@ def make_findings(
     if limited and missing:
         findings.append(f"model {missing} states no limits")
         limited = frozenset()
-    numbers = np.flatnonzero(found.reading.apart) + 1
+    numbers = pair.numbers[np.flatnonzero(found.reading.apart)]
     said = Said(limited, "names" in asked.same, frozenset(numbers.tolist()))
     findings += joint_findings(joints, asked.tol, said, found.reading.link)
     findings += _frames(found, poses, asked)

@@ -49,7 +49,7 @@ def joint_rows(
         if ours.slides[i] != slides[i]:
             theirs = np.full(2, np.nan)
         yield JointComparison(
-            number=i + 1,
+            number=int(pair.numbers[i]),
             name_a=a.joint_names[i],
             name_b=b.joint_names[i],
             kind_a=a.kinds[i],

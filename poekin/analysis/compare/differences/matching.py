@@ -21,7 +21,8 @@ pose errors are told of, where an alignment is not to be the worse one.
 class Matched(NamedTuple):
     """Two chains at rest with equal numbers of joints, the couplings of these, values x (samples,
     n) within a's limits, b's values y at the same coordinates, others within a's and within b's;
-    extra, as `Comparison.unmatched_joints`.
+    numbers (n,) that the joints have in the first chain as it was given, from 1; extra, as
+    `Comparison.unmatched_joints`.
     """
 
     a: Chain
@@ -31,6 +32,7 @@ class Matched(NamedTuple):
     x: Array
     y: Array
     both: tuple[Array, Array]
+    numbers: np.ndarray
     extra: tuple[str, ...] | None = None
 
 
@@ -48,7 +50,8 @@ def matched(a: Chain, b: Chain, asked: Asked) -> Matched | None:
     y = x
     if a.coupling.shape == b.coupling.shape:
         y = q[: asked.samples] @ b.coupling.T
-    pair = Matched(one, other, a.coupling, b.coupling, x, y, (ours, theirs))
+    numbers = np.arange(len(one.screws)) + 1
+    pair = Matched(one, other, a.coupling, b.coupling, x, y, (ours, theirs), numbers)
     if len(one.screws) == len(other.screws):
         return pair
     found = droppable(one, other, asked.tol)
@@ -68,6 +71,7 @@ def matched(a: Chain, b: Chain, asked: Asked) -> Matched | None:
         x=np.delete(x, ks, axis=1),
         y=np.delete(y, ks, axis=1),
         both=(np.delete(ours, ks, axis=1), theirs),
+        numbers=np.delete(numbers, ks),
         extra=("a", *_names(one, ks)),
     )
 

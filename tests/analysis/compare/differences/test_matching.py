@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from benchmarks.planted_changes import random_arm
+from poekin.analysis.compare.compare import compare
 from poekin.analysis.compare.differences.conventions import BUT_NAMES, Asked
 from poekin.analysis.compare.differences.matching import matched
+from poekin.formats.load import load
 from poekin.model import screw
 from poekin.model.chain import Chain
 
@@ -28,3 +30,23 @@ def test_alignments_are_weighed_within_the_limits_of_both_models_whichever_is_lo
         low, high = (np.delete(limits, 2, 0) if model == longer else short.limits).T
         assert x.shape == (60, 4)
         assert ((low <= x) & (x <= high)).all()
+
+
+@pytest.mark.parametrize(("longer", "wrist", "end"), [("a", 5, 7), ("b", 4, 6)])
+def test_a_joint_has_the_number_that_it_has_in_a_though_one_before_it_is_dropped(
+    longer, wrist, end
+):
+    arm = load("ur5e").chain(tip="tool0")
+    extra = screw.revolute([1, 2, 0], [0.1, 0.3, 0.2])
+    names = [*arm.joint_names[:2], "extra", *arm.joint_names[2:]]
+    long = Chain.from_space(np.insert(arm.screws, 2, extra, 0), arm.home, joint_names=names)
+
+    def compared(k):
+        arms = {"a": arm, "b": arm} | {longer: long.rezeroed(0.1 * np.eye(7)[k])}
+        return compare(arms["a"], arms["b"], samples=3)
+
+    result = compared(4)
+    (joint,) = result.differing
+    assert (joint.number, joint.name_a) == (wrist, "wrist_1_joint")
+    assert f"; joint {wrist} ('wrist_1_joint') has its zero 5.73° elsewhere" in result.verdict
+    assert f"the axis of joint {end} ('wrist_3_joint') is the same" in compared(6).alternatives[0]
