@@ -251,6 +251,16 @@ CASES = [
     *[(rounding.is_rounding, x, 1.0) for x in (0.0, 0.5)],
     *[(rounding.least, x, 1.0) for x in (0.5, 1.5)],
     (three_parallel.outer, UR_AXES, UR_STEPS, R1, REACHED),
+    (
+        three_parallel.inner,
+        UR_AXES,
+        UR_STEPS,
+        (0.0, 1.0, 0.0),
+        (1.0, 0.0, 0.0),
+        R1,
+        REACHED,
+        (0.6, 0.8, 0.96, 0.28, 0.5),
+    ),
     *[
         (
             three_parallel.with_outer,

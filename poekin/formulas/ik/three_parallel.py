@@ -39,6 +39,25 @@ def _along_second(h, a, b, d):
     return A, -B, -D, -E, d + F - C
 
 
+def inner(h, P, n, across, R, p, root):
+    """The (c, s) of x_6 at a root of `outer`, and the task of joints 2 to 4: the vector that they turn
+    `across`, one across n, to, the (c, s) of this turn about n, and the place r to reach.
+    """
+    c1, s1, c5, s5, _ = root
+    before = rotated(h[0], c1, s1, n)
+    after = rotated(h[4], c5, -s5, n)
+    c6, s6, _ = rotation_onto(h[5], unrotate(R, before), after)
+    turned = rotated(h[4], c5, -s5, across)
+    turned = rotated(h[5], c6, -s6, turned)
+    turned = rotated(h[0], c1, -s1, rotate(R, turned))
+    c, s, _ = rotation_onto(n, across, turned)
+    ahead = add(P[4], rotated(h[4], c5, s5, P[5]))
+    ahead = rotated(n, c, s, ahead)
+    place = rotated(h[0], c1, -s1, p)
+    r = subtract(subtract(place, P[1]), ahead)
+    return (c6, s6), turned, (c, s), r
+
+
 def with_outer(h, P, across, R, p, root):
     """Two rows (c, s of x_1, ..., of x_6, margin) of one root of `outer`; `across` is a vector across
     h_2.
@@ -46,25 +65,13 @@ def with_outer(h, P, across, R, p, root):
     Of a margin of 0 the rows meet, with the other of `outer` or with each other, to rounding; below
     0 the pose is out of reach, and the elbow stretched or folded towards it.
     """
-    c1, s1, c5, s5, margin = root
-    before = rotated(h[0], c1, s1, h[1])
-    after = rotated(h[4], c5, -s5, h[1])
-    c6, s6, _ = rotation_onto(h[5], unrotate(R, before), after)
-    turned = rotated(h[4], c5, -s5, across)
-    turned = rotated(h[5], c6, -s6, turned)
-    turned = rotated(h[0], c1, -s1, rotate(R, turned))
-    c, s, _ = rotation_onto(h[1], across, turned)
-    ahead = add(P[4], rotated(h[4], c5, s5, P[5]))
-    ahead = rotated(h[1], c, s, ahead)
-    place = rotated(h[0], c1, -s1, p)
-    r = subtract(subtract(place, P[1]), ahead)
+    last, turned, _, r = inner(h, P, h[1], across, R, p, root)
     # |r|^2 = |P_2 + e^{[h_3] x_3} P_3|^2
     A, B, C = turned_component(P[2], h[2], P[3])
     squares = dot(r, r) - dot(P[2], P[2]) - dot(P[3], P[3])
     rest = 0.5 * squares - C
     c3, s3, cosine, sine, here = circle_line.roots(A, B, rest)
-    margin = least(margin, here)
-    outside = (c1, s1, c5, s5, c6, s6, margin)
+    outside = root[:4] + last + (least(root[4], here),)
     return (
         _with_elbow(h, P, across, turned, r, (c3, s3), outside),
         _with_elbow(h, P, across, turned, r, (cosine, sine), outside),

@@ -13,7 +13,8 @@ the joints. Accuracy: that of `two_circles` and `quadratic`
 joints in place of the triangle's.
 """
 
-from ....algebra import add, cross, dot, rotate, scale, subtract, unrotate
+from ....algebra import add, cross, dot, scale, subtract
+from .. import three_parallel
 from ..rotation_onto import rotated, rotation_onto
 from . import quadratic
 
@@ -24,28 +25,14 @@ def with_outer(slides, h, P, n, across, R, p, root):
     `slides` says which of the joints 2 to 4 are prismatic, one or two of them; `across` is a vector
     across n.
     """
-    c1, s1, c5, s5, margin = root
-    before = rotated(h[0], c1, s1, n)
-    after = rotated(h[4], c5, -s5, n)
-    c6, s6, _ = rotation_onto(h[5], unrotate(R, before), after)
-    turned = rotated(h[4], c5, -s5, across)
-    turned = rotated(h[5], c6, -s6, turned)
-    turned = rotated(h[0], c1, -s1, rotate(R, turned))
-    c, s, _ = rotation_onto(n, across, turned)
-    ahead = add(P[4], rotated(h[4], c5, s5, P[5]))
-    ahead = rotated(n, c, s, ahead)
-    place = rotated(h[0], c1, -s1, p)
-    r = subtract(subtract(place, P[1]), ahead)
-    phi = (c, s)
+    last, turned, phi, r = three_parallel.inner(h, P, n, across, R, p, root)
     if slides[0] + slides[1] + slides[2] == 2:
         x, y = _of_two(slides, h, P, n, phi, r)
     else:
         x, y = _of_one(slides, h, P, n, (across, turned), phi, r)
-    first = (c1, s1)
-    last = (c5, s5, c6, s6)
     return (
-        first + x[:6] + last + (min(margin, x[6]),),
-        first + y[:6] + last + (min(margin, y[6]),),
+        root[:2] + x[:6] + root[2:4] + last + (min(root[4], x[6]),),
+        root[:2] + y[:6] + root[2:4] + last + (min(root[4], y[6]),),
     )
 
 
