@@ -13,6 +13,7 @@ from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.checks import finite
 from ....model.coordinates import coordinates
+from ....model.readings.coupled import beyond_own_limits, joint_values
 
 Predicate = Callable[[Array, Array], Any]
 """Function of configurations q (N, m) and poses T_base_tip (N, 4, 4) that says which are allowed,
@@ -49,8 +50,6 @@ def allowed_rows(
     Raises: ShapeError for a predicate that returns anything else than N booleans.
     """
     allowed = np.ones(len(q), bool)
-    if not predicates:
-        return allowed
     T = chain.fk(q)
     for predicate in predicates:
         found = np.asarray(predicate(q, T))
@@ -66,13 +65,14 @@ def allowed_rows(
 def drawn(
     chain: Chain,
     count: int,
-    rng: np.random.Generator,
+    seed: Any,
     predicates: Sequence[Predicate],
     name: str,
 ) -> Array:
     """Configurations (count, m) drawn within the limits that the predicates allow. Raises: InputError
     where they allow next to none.
     """
+    rng = np.random.default_rng(seed)
     parts = []
     found = 0
     for _ in range(DRAWS):
@@ -92,13 +92,13 @@ def parse_candidates(
     chain: Chain,
     candidates: Any,
     seed: int,
-    predicates: Sequence[Predicate],
+    allowed: Any,
 ) -> tuple[Array, np.ndarray]:
     """The candidates (K, m), finite and within the limits, and the rows of those that are allowed."""
+    predicates = parse_predicates(allowed, "allowed")
     if is_whole(candidates, 1):
         count = int(candidates)
-        rng = np.random.default_rng(seed)
-        return drawn(chain, count, rng, predicates, "allowed"), np.arange(count)
+        return drawn(chain, count, seed, predicates, "allowed"), np.arange(count)
     q = _configurations(chain, candidates, "candidates")
     _check_limits(chain, q)
     return q, np.flatnonzero(allowed_rows(chain, q, predicates, "allowed"))
@@ -114,8 +114,7 @@ def parse_workspace(
         isinstance(workspace, (list, tuple)) and any(map(callable, workspace))
     ):
         predicates = parse_predicates(workspace, "workspace")
-        rng = np.random.default_rng((seed, 2))
-        return drawn(chain, WORKSPACE, rng, predicates, "workspace")
+        return drawn(chain, WORKSPACE, (seed, 2), predicates, "workspace")
     return _configurations(chain, workspace, "workspace")
 
 
@@ -139,14 +138,18 @@ def _configurations(chain: Chain, given: Any, name: str) -> Array:
 
 
 def _check_limits(chain: Chain, q: Array) -> None:
-    lower, upper = chain.limits.T
-    bad = (q < lower) | (q > upper)
+    """Refuse coordinates beyond their limits, and joints beyond their own."""
+    values = np.hstack([q, joint_values(chain, q)])
+    lower, upper = np.vstack([chain.limits, chain.joint_limits]).T
+    bad = (values < lower) | (values > upper)
+    # a sum of coordinates may be beyond by rounding
+    bad[:, chain.dof :] = beyond_own_limits(chain, q)
     for row, k in np.argwhere(bad).tolist():
         many = int(bad.any(axis=1).sum())
-        others = ""
-        if many > 1:
-            others = f"; {many} of the {len(q)} candidates cannot be taken"
+        others = f"; {many} of the {len(q)} candidates cannot be taken" * (many > 1)
+        joint = "joint " * (k >= chain.dof)
+        name = (*chain.q_names, *chain.joint_names)[k]
         raise InputError(
-            f"candidates[{row}]: {quote(chain.q_names[k])} = {q[row, k]:.6g} is outside its limits "
+            f"candidates[{row}]: {joint}{quote(name)} = {values[row, k]:.6g} is outside its limits "
             f"{lower[k]:.6g} to {upper[k]:.6g}{others}"
         )

@@ -28,7 +28,6 @@ from .candidates import (
     Predicate,
     parse_candidates,
     parse_measured,
-    parse_predicates,
     parse_workspace,
 )
 from .choice import SMALLER_IS_BETTER, Choice, DesignMetrics
@@ -69,7 +68,7 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
         What will be measured at each: poses or points of the tip, or examples such as `Points` or
         `EyeInHand`, of which points, centre, board, camera and the first covariance count, measured
         numbers do not. A board or camera has to be given roughly; a device in an unknown frame is
-        taken to stand at the base.
+        taken to stand at the base, an unknown probe to be at the tip.
     parameters, joints : sequence of str, optional
         As of `calibrate`.
     criterion : {"prediction", "O1", "amplification", "condition", "smallest"}
@@ -131,11 +130,10 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
     """
     chain = chain_of(chain)
     whole(n, "n", 1)
-    whole(n_random, "n_random", 1)
+    n_random = whole(n_random, "n_random", 1)
     whole(seed, "seed", 0)
     choice(criterion, CRITERIA, "criterion")
-    predicates = parse_predicates(allowed, "allowed")
-    every, rows = parse_candidates(chain, candidates, seed, predicates)
+    every, rows = parse_candidates(chain, candidates, seed, allowed)
     q = every[rows]
     if n > len(q):
         those = f"{len(q)} candidates"
@@ -154,14 +152,14 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
         )
     # of each configuration (K, r, L), on the space that all of them together show
     seen = row_space(identification_matrix(problem)).basis
-    blocks = _information(problem, both) @ seen
-    where = blocks[: len(q)]
+    blocks, given = np.split(_information(problem, both) @ seen, [len(q)])
+    where = blocks
     if workspace is not None:
         where = _information(problem, parse_workspace(chain, workspace, seed)) @ seen
-    design = Design(blocks[: len(q)], blocks[len(q) :], root_information(where))
+    design = Design(blocks, given, root_information(where))
     check_enough(design, n)
     chosen = exchange(
-        design.blocks,
+        blocks,
         n,
         criterion,
         progress,
@@ -171,7 +169,7 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
     rng = np.random.default_rng((seed, 1))
     drawn = [rng.choice(len(q), n, replace=False) for _ in range(n_random)]
     others = np.array([design_metrics(design, some) for some in drawn])
-    smaller = [name in SMALLER_IS_BETTER for name in DesignMetrics._fields]
+    smaller = np.isin(DesignMetrics._fields, SMALLER_IS_BETTER)
     best = np.where(smaller, others.min(axis=0), others.max(axis=0))
     return Choice(
         q=q[chosen],
@@ -184,7 +182,7 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
         identifiable=identification.identifiable,
         unobserved=identification.unobserved,
         candidates=len(q),
-        n_random=int(n_random),
+        n_random=n_random,
         measured=len(before),
     )
 
@@ -195,11 +193,10 @@ def _examples(measurements: Any) -> list[Measurement]:
         "poses": Poses(np.eye(4)[None]),
         "points": Points(np.zeros((1, 3))),
     }
-    if isinstance(measurements, str) and measurements in tip:
-        return [tip[measurements]]
-    sets: Any = [measurements] if isinstance(measurements, Measurement) else measurements
-    several = isinstance(sets, (list, tuple)) and len(sets)
-    if not several or not all(isinstance(s, Measurement) and s.sees_arm for s in sets):
+    sets: Any = measurements if isinstance(measurements, (list, tuple)) else [measurements]
+    if isinstance(measurements, str):
+        sets = [tip.get(measurements)]
+    if not sets or not all(isinstance(s, Measurement) and s.sees_arm for s in sets):
         raise InputError(
             "measurements: expected 'poses', 'points', or an example of Poses, Points, Distances, "
             f"EyeInHand or EyeToHand, or a list of them, got {safe_repr(measurements)}"
@@ -213,11 +210,15 @@ def _examples(measurements: Any) -> list[Measurement]:
 
 
 def _rough_frames(sets: list[Measurement]) -> list[Array]:
-    """Unknown frames as guessed in the examples; a device of `Points` stands at the base."""
+    """Unknown frames as guessed in the examples; a device stands at the base, a probe at the tip."""
     frames = []
     for s in sets:
         for unknown in s.unknown_frames:
-            if unknown.guess is None and not (isinstance(s, Points) and unknown.size == 6):
+            guess = unknown.guess
+            # no argument says where a device or a probe is
+            if guess is None and unknown.name in Poses.frames:
+                guess = np.eye(4)
+            if guess is None:
                 name = unknown.name.rpartition("_")[2]
                 if isinstance(s, Points):
                     name = "points"
@@ -225,7 +226,7 @@ def _rough_frames(sets: list[Measurement]) -> list[Array]:
                     f"measurements: {s.what}: expected {name}=, roughly where it is: nothing is "
                     "measured yet"
                 )
-            frames.append(np.eye(4) if unknown.guess is None else unknown.guess)
+            frames.append(guess)
     return frames
 
 
@@ -234,11 +235,9 @@ def _information(problem: Problem, q: Array) -> Array:
     covariance where all sets have one, else in rad and reaches.
     """
     parts = scaled_jacobians(problem, q)
-    covariances = [s.covariance for s in problem.sets]
-    if all(C is not None for C in covariances):
-        reach = problem.model.nominal.reach
+    if all(s.covariance is not None for s in problem.sets):
         for k, s in enumerate(problem.sets):
-            unit = per_error(s, 1.0, reach)
-            L = np.linalg.cholesky(covariances[k][0] / np.outer(unit, unit))
+            unit = per_error(s, 1.0, problem.model.nominal.reach)
+            L = np.linalg.cholesky(s.covariance[0] / np.outer(unit, unit))
             parts[k] = np.linalg.solve(L, parts[k])
     return np.concatenate(parts, axis=1)

@@ -40,9 +40,8 @@ def root_information(blocks: Array) -> Array:
 def design_metrics(design: Design, rows: np.ndarray) -> DesignMetrics:
     """The metrics of the candidates `rows` with what was measured before."""
     size = design.blocks.shape[2]
-    chosen = design.blocks[rows].reshape(-1, size)
-    J = np.concatenate([chosen, design.before.reshape(-1, size)])
-    _, s, Vt = np.linalg.svd(qr_r(J))
+    J = np.concatenate([design.blocks[rows], design.before])
+    _, s, Vt = np.linalg.svd(qr_r(J.reshape(-1, size)))
     if len(s) < size or s[-1] <= RANK * s[0]:
         return DesignMetrics(*observability.UNOBSERVED, np.inf)
     indices = observability.from_singular_values(s, len(rows) + len(design.before))

@@ -10,7 +10,7 @@ import pytest
 
 import poekin as pk
 from poekin.errors import InputError, ShapeError
-from poekin.solve.calibration import Points, Poses, WorkspaceBox, identify
+from poekin.solve.calibration import EyeToHand, Points, Poses, WorkspaceBox, identify
 from poekin.solve.calibration.design import candidates as drawing
 from poekin.solve.calibration.design.candidates import drawn, parse_workspace
 
@@ -124,6 +124,15 @@ def test_covariances_count_where_every_measurement_has_one():
     assert both.metrics == without.metrics
 
 
+def test_an_unknown_device_is_taken_to_stand_at_the_base_and_a_probe_to_be_at_the_tip():
+    here = np.eye(4)
+    rough = EyeToHand(here[None], camera=here, board=here)
+    unknown = Poses(here[None], frame="unknown", tool="unknown")
+    given, taken = (choose(ARM, 6, Q, measurements=x, n_random=2) for x in (rough, unknown))
+    assert taken.rank == given.rank
+    assert taken.metrics == given.metrics
+
+
 def test_candidates_at_their_limits_are_candidates():
     q = np.array([[-2.0, 1.0], [2.0, -1.0]])
     given, rows = drawing.parse_candidates(ARM, q, 0, ())
@@ -132,6 +141,22 @@ def test_candidates_at_their_limits_are_candidates():
     for beyond in np.nextafter(q, 2 * q):
         with pytest.raises(InputError, match=r"candidates\[0\].*is outside its limits"):
             drawing.parse_candidates(ARM, [beyond], 0, ())
+
+
+def test_candidates_that_take_joints_beyond_their_own_limits_are_refused_with_the_joint():
+    arm = ARM.replace(coupling=[[1, 0], [1, 1]], joint_limits=[[-2, 2], [-0.3, 0.3]])
+    q = arm.random(5, 40)
+    q[7] = [0.1, 0.2]  # a sum that rounding may take above 0.3
+    assert len(choose(arm, 6, q, n_random=1).q) == 6
+    q[17] = [0.6, -0.1]
+    said = f"candidates[17]: joint '{arm.joint_names[1]}' = 0.5 is outside its limits -0.3 to 0.3"
+    with pytest.raises(InputError, match=f"^{re.escape(said)}$"):
+        choose(arm, 6, q)
+    q[20] = [1.0, 2.0]  # the coordinate, too, is beyond its limits
+    with pytest.raises(InputError, match=r"; 2 of the 40 candidates cannot be taken$"):
+        choose(arm, 6, q)
+    with pytest.raises(InputError, match=rf"^candidates\[0\]: '{arm.q_names[1]}' = 2 is outside"):
+        choose(arm, 6, q[20:])
 
 
 FUNCTION = (
