@@ -213,11 +213,11 @@ def _examples(measurements: Any) -> list[Measurement]:
 
 
 def _rough_frames(sets: list[Measurement]) -> list[Array]:
-    """Unknown frames as guessed in the examples; a device of `Points` stands at the base."""
+    """Unknown frames as guessed in the examples; a device stands at the base."""
     frames = []
     for s in sets:
         for unknown in s.unknown_frames:
-            if unknown.guess is None and not (isinstance(s, Points) and unknown.size == 6):
+            if unknown.guess is None and unknown.name != "T_base_device":
                 name = unknown.name.rpartition("_")[2]
                 if isinstance(s, Points):
                     name = "points"

@@ -60,6 +60,8 @@ def as_measured(kind, arm, q):  # type: ignore[no-untyped-def]
     p = (T @ Z)[:, :3, 3]
     if kind == "poses":
         return "poses", Poses(T)
+    if kind == "poses in a device's frame":
+        return (Poses(x, frame="unknown") for x in (T[:1], T))
     if kind == "point":
         return Points([[0, 0, 0]], points=TOOL), Points(p, points=TOOL)
     if kind == "distance":
@@ -99,7 +101,10 @@ def test_each_criterion_is_bettered_beyond_the_best_random_choice(puma, candidat
         assert better < median if name in ("condition", "prediction") else better > median
 
 
-@pytest.mark.parametrize("kind", ["poses", "point", "distance", "eye in hand", "eye to hand"])
+@pytest.mark.parametrize(
+    "kind",
+    ["poses", "poses in a device's frame", "point", "distance", "eye in hand", "eye to hand"],
+)
 def test_the_indices_are_those_that_identify_finds_once_it_was_measured_there(
     puma, candidates, kind
 ):
