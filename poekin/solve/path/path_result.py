@@ -347,7 +347,6 @@ class PathResult(Result):
                 self._moving_chain(free),
                 self.q[s.worst, free],
                 part=self.task.part,
-                length=self.chain.reach,
             )
             if found.singular:
                 return f"{where}: {found}"

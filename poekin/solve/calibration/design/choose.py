@@ -214,11 +214,8 @@ def _rough_frames(sets: list[Measurement]) -> list[Array]:
     frames = []
     for s in sets:
         for unknown in s.unknown_frames:
-            guess = unknown.guess
             # no argument says where a device or a probe is
-            if guess is None and unknown.name in Poses.frames:
-                guess = np.eye(4)
-            if guess is None:
+            if unknown.guess is None and unknown.name not in Poses.frames:
                 name = unknown.name.rpartition("_")[2]
                 if isinstance(s, Points):
                     name = "points"

@@ -62,17 +62,19 @@ class Size(NamedTuple):
 
 
 class Explanation(NamedTuple):
-    """Motion of base (None where it was free anyway) and tool, and the median error that is left
+    """Motion of base and tool (None where one was free anyway), and the median error that is left
     then.
     """
 
     base: Size | None
-    tool: Size
+    tool: Size | None
     left: Size
 
     def __str__(self) -> str:
         if self.base is None:
             return f"tool moved by {self.tool}"
+        if self.tool is None:
+            return f"base moved by {self.base}"
         return f"base moved by {self.base}, tool by {self.tool}"
 
 
@@ -146,7 +148,7 @@ def hint(s: Measurement, found: Explanation, reach: float) -> str:
     """Advice on how to say that base or tool are others, of measurements that take them for the
     arm's.
     """
-    if isinstance(s, Poses) and found.base is not None and not far(found.base, reach):
+    if isinstance(s, Poses) and found.base and found.tool and not far(found.base, reach):
         return _TOOL
     return next(words for kind, words in _HINTS.items() if isinstance(s, kind))
 
@@ -156,24 +158,29 @@ def explained(problem: Problem, k: int) -> Explanation | None:
     be found.
     """
     s = problem.sets[k]
+    base_free = s.frame == "unknown"
+    tool_free = len(s.unknown_frames) > base_free
     try:
         own = _with_free_base_and_tool(problem, k)
     except InputError:
         return None
-    if own is None:
+    if own is None or (base_free and tool_free):
         return None
     free = identify_directions(own)[1]
     fit = fit_parameters(own, free, np.zeros(own.size), FitOptions("huber"))
     base, *moving = own.frame_values(fit.p).values()
-    tool = se3.exp(fit.p[: own.model_size])
-    for T in moving:
-        if T.ndim == 2:  # not a point of the tool
+    where = moved = None
+    if not base_free:
+        where = _base(s, base)
+    if not tool_free:
+        tool = se3.exp(fit.p[: own.model_size])
+        for T in moving:
             tool = tool @ T
-    moved = size_of(tool)
-    if s.width <= 3:  # one point does not tell how the tool is turned
-        moved = Size(moved.length)
+        moved = size_of(tool)
+        if s.width <= 3:  # one point does not tell how the tool is turned
+            moved = Size(moved.length)
     left = median(own.residuals(fit.p), 0)
-    return Explanation(_base(s, base), moved, left)
+    return Explanation(where, moved, left)
 
 
 def _with_free_base_and_tool(problem: Problem, k: int) -> Problem | None:
@@ -191,10 +198,8 @@ def _with_free_base_and_tool(problem: Problem, k: int) -> Problem | None:
     return None
 
 
-def _base(s: Measurement, base: Array) -> Size | None:
-    """Motion of the base that was found; None where it was free anyway."""
-    if s.unknown_frames:
-        return None
+def _base(s: Measurement, base: Array) -> Size:
+    """Motion of the base that was found."""
     if isinstance(s, Distances):
         return Size(norm(base - s.centre))
     return size_of(base)
@@ -216,6 +221,8 @@ def _is_other_tool(found: Explanation, reach: float) -> bool:
     """Whether the tool is another one."""
     tool = found.tool
     left = found.left
+    if tool is None:
+        return False
     shifted = tool.length > max(TOOL * reach, _MORE * left.length)
     return shifted or tool.angle > np.fmax(TURN, _MORE * left.angle)
 

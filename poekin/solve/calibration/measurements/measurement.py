@@ -53,6 +53,9 @@ class Measurement:
         Number of them that are angles.
     unknown_frames : tuple of UnknownFrame
         Frames and points that are estimated jointly.
+    frame : {"base", "unknown"}
+        Where they are measured from: the base frame, or the first of `unknown_frames`, a device's
+        frame or the centre of distances.
     sees_arm : bool
         Whether the measurements depend on the pose of the arm.
     """
@@ -62,6 +65,7 @@ class Measurement:
     width: int
     angular: int = 0
     unknown_frames: tuple[UnknownFrame, ...] = ()
+    frame: Any = "base"
     sees_arm: bool = True
     _measured: str = "T"  # the attribute that holds the measured numbers
     _others: tuple[str, ...] = ()  # attributes that hold more of each measurement

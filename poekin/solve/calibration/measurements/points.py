@@ -135,21 +135,11 @@ class Points(Measurement):
             unknown.insert(0, UnknownFrame("T_base_device", 6))
         self._keep(p=p, points=points, width=3 * count, unknown_frames=tuple(unknown))
 
-    def _parts(self, frame_values: Frames) -> tuple[list[Array], Array]:
-        """The pose of the device, if it is unknown, and the points (k, 3)."""
-        values = list(frame_values)
-        of_device = values[: self.frame == "unknown"]
-        of_points = values[len(of_device) :]
-        if of_points:
-            return of_device, np.array(of_points)
-        return of_device, self.points
-
     def errors(self, T: Array, frame_values: Frames) -> Array:
         """Errors p_model − p_measured (N, 3k), in the frame in which p stands."""
-        of_device, points = self._parts(frame_values)
-        for T_base_device in of_device:
-            T = se3.inverse(T_base_device) @ T
-        errors = points_at(T, points) - self.p
+        if self.frame == "unknown":
+            T = se3.inverse(frame_values[0]) @ T
+        errors = points_at(T, points_of(self, frame_values)) - self.p
         return errors.reshape(len(T), self.width)
 
     def jacobian(
@@ -163,7 +153,8 @@ class Points(Measurement):
 
         The second is seen from the device, the third of a point y of the tool.
         """
-        of_device, points = self._parts(frame_values)
+        of_device = frame_values[: self.frame == "unknown"]
+        points = points_of(self, frame_values)
         P = D.shape[2]
         for T_base_device in of_device:
             T, D = seen_from(T_base_device, T, D)
@@ -207,6 +198,12 @@ class Points(Measurement):
         back = from_tip @ rotation_part(T)
         found = map(initial_guess.mean_position, np.swapaxes(back, 0, 1))
         return np.array(list(found))
+
+
+def points_of(s: Points, frame_values: Frames) -> Array:
+    """Points (k, 3) of the tool in the tip frame, as given or as estimated."""
+    estimated = frame_values[s.frame == "unknown" :]
+    return np.array(estimated) if len(estimated) else s.points
 
 
 def unknown_points(count: int, shared: str | None) -> list[UnknownFrame]:
@@ -278,6 +275,7 @@ class Distances(Measurement):
         unknown: tuple[UnknownFrame, ...] = ()
         if centre is None:
             unknown = (UnknownFrame("centre", 3, guess),)
+            self._set_fields(frame="unknown")
         self._keep(d=d, centre=centre, point=point, unknown_frames=unknown)
 
     def _away(self, y: Array, frame_values: Frames) -> Array:

@@ -175,6 +175,8 @@ class Poses(_BetweenFrames):
 class _HandEye(_BetweenFrames):
     """Poses between a camera and a board, both frames estimated jointly."""
 
+    frame = "unknown"
+
     def __post_init__(self) -> None:
         name = fields(self)[0].name  # type: ignore[arg-type]
         pairs = self.frames.items()

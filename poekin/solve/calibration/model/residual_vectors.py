@@ -11,7 +11,7 @@ from ....groups.arrays import Array
 from ....groups.vectors import applied, normalised_or_zero, norms, rotation_part
 from ....results import brief
 from ..measurements.measurement import Frames, Measurement, Rows
-from ..measurements.points import Distances, Points, point_at, points_at
+from ..measurements.points import Distances, Points, point_at, points_at, points_of
 from .residuals import rms
 
 Axes = Literal["base", "tool", "path"]
@@ -119,9 +119,8 @@ def places_and_errors(s: Measurement, T: Array, frame_values: Frames) -> tuple[A
         along = errors * normalised_or_zero(away)
         return places[:, None], along[:, None]
     vectors = errors.reshape(len(T), -1, 3)
-    if len(frame_values) and frame_values[0].ndim == 2:  # the frame in which the errors stand
+    if s.frame == "unknown":  # the errors stand in it, too
         vectors = vectors @ rotation_part(frame_values[0]).T
     if isinstance(s, Points):
-        unknown = [y for y in frame_values if y.ndim == 1]
-        return points_at(T, np.array(unknown) if unknown else s.points), vectors
+        return points_at(T, points_of(s, frame_values)), vectors
     return T[:, None, :3, 3], vectors

@@ -95,6 +95,43 @@ def test_a_base_that_is_elsewhere_is_a_remark_and_no_warning(name, tmp_path):
     assert "tool by " in warned(arm, s.q, T @ Z)[1]
 
 
+UNKNOWN = {
+    "point": lambda T: Points((T @ [*TOOL, 1])[:, :3], points=None),
+    "probe": lambda T: Poses(T @ Z, tool="unknown"),
+}
+
+
+@pytest.mark.parametrize("what", UNKNOWN)
+def test_a_base_that_is_elsewhere_is_told_where_the_tool_is_not_known(what):
+    arm = ARMS["ur5"]
+    q = arm.random(1, 40)
+    T = se3.inverse(se3.exp([0, 0, 0.3, 0.5, 0.2, 0.1])) @ arm.fk(q)
+    found = calibrate(arm, q, UNKNOWN[what](T), folds=0)
+    assert found.warnings == ()
+    (words,) = found.remarks
+    assert ": base moved by 0.546 m and 0.3 rad, to the frame that was measured in; " in words
+    assert re.search(
+        r"most likely: the \w+: base moved by 0.546 m and 0.3 rad \(", found.verdict[0]
+    )
+
+
+def test_nothing_is_told_of_base_and_tool_where_neither_is_known():
+    q = PANDA.random(1, 40)
+    T = X @ PANDA.fk(q) @ Z
+    sets = [
+        Poses(T, frame="unknown", tool="unknown"),
+        Points(T[:, :3, 3], points=None, frame="unknown"),
+    ]
+    problem = Problem(ErrorModel(PANDA, ("home",), None), q, sets)
+    assert [explanation.explained(problem, k) for k in range(2)] == [None, None]
+
+
+def test_a_tool_that_is_not_known_is_no_tip_to_be_taken():
+    s = Poses(np.eye(4)[None], tool="unknown")
+    assert "EyeInHand" in explanation.hint(s, Explanation(NEAR, None, NEAR), 5.0)
+    assert explanation.hint(s, Explanation(NEAR, FAR, NEAR), 5.0).startswith("take the tip")
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_nothing_is_said_of_an_arm_that_is_off_by_a_centimetre(seed):
     s = simulated(PANDA, 40, tilt=1e-2, shift=1e-2, seed=seed)
@@ -211,6 +248,7 @@ def test_a_size_is_told_in_thousandths_below_a_tenth(size, words):
     assert str(size) == words
     assert str(Explanation(size, Size(0.5), size)) == f"base moved by {words}, tool by 0.5 m"
     assert str(Explanation(None, Size(0.5), size)) == "tool moved by 0.5 m"
+    assert str(Explanation(size, None, size)) == f"base moved by {words}"
 
 
 NEAR, FAR, BASE = Size(0.01, 0.01), Size(2.0, 0.5), Size(1.0, 0.25)
@@ -280,7 +318,18 @@ def test_a_set_is_named_by_its_number_where_there_are_several():
 def test_distances_have_their_base_moved_by_how_far_their_centre_is():
     known = Distances([1.0], centre=[1.0, 2.0, 3.0])
     assert explanation._base(known, np.array([4.0, 6.0, 3.0])) == Size(5.0)
-    assert explanation._base(Distances([1.0]), np.zeros(3)) is None
+
+
+def test_the_tool_alone_is_told_of_distances_whose_centre_is_not_known():
+    q = PANDA.random(1, 40)
+    T = PANDA.fk(q)
+    d = np.linalg.norm(T[:, :3, :3] @ TOOL + T[:, :3, 3] - [1.0, 1.5, 0.5], axis=1)
+    problem = Problem(ErrorModel(PANDA, ("home",), None), q, [Distances(d)])
+    found = explanation.explained(problem, 0)
+    assert found is not None
+    assert found.base is None
+    assert found.tool is not None
+    assert found.tool.length == pytest.approx(np.linalg.norm(TOOL))
 
 
 def test_the_point_that_distances_are_of_is_no_other_tool():
@@ -292,6 +341,7 @@ def test_the_point_that_distances_are_of_is_no_other_tool():
     assert found is not None
     assert found.base is not None
     assert found.base.length == pytest.approx(0.5)
+    assert found.tool is not None
     assert found.tool.length < 1e-9
 
 
@@ -300,5 +350,6 @@ def test_base_and_tool_are_those_at_the_rows_of_q_that_a_set_names():
     told = Poses(X @ PANDA.fk(q[rows]) @ Z, rows=rows)
     found = explanation.explained(Problem(ErrorModel(PANDA, ("home",), None), q, [told]), 0)
     assert found is not None
+    assert found.tool is not None
     assert found.tool.angle == pytest.approx(explanation.size_of(Z).angle)
     assert found.left.length < 1e-9

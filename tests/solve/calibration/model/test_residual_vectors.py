@@ -49,6 +49,16 @@ def test_vectors_measured_by_a_device_are_in_the_base_frame():
     np.testing.assert_allclose(v.places - v.after, measured, atol=1e-14)
 
 
+def test_vectors_of_a_probe_that_sits_anywhere_on_the_tool_are_in_the_base_frame():
+    made = pk.calibration.simulated(ARM, 40, seed=3)
+    M = made.measurements.T @ pk.se3.exp([0.5, 0.9, -0.7, 0.05, 0.1, 0.15])  # type: ignore[attr-defined]
+    probe = pk.calibration.Poses(M, tool="unknown")
+    found = pk.calibrate(ARM, made.q, probe, folds=0, on_rank_deficiency="fix")
+    assert found.residuals is not None
+    off = found.chain.fk(made.q) @ found.frames["T_tip_probe"] - M
+    np.testing.assert_allclose(found.residuals.after, off[:, :3, 3], atol=1e-14)
+
+
 def test_the_vector_of_a_distance_points_along_the_line_to_the_centre():
     made, _, v = calibrated("distances")
     along = v.places - made.measurements.centre

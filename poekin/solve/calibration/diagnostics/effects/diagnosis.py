@@ -11,7 +11,7 @@ from .....groups.arrays import Array
 from .....results import Result, brief
 from ...fit.fitting import Fit
 from ...fit.losses import LossName
-from ...measurements.points import Distances, Points
+from ...measurements.points import Distances, Points, points_of
 from ...model.problem import Problem
 from ...terms.conditions import Conditions
 from ..base_and_tool import pose_points
@@ -96,8 +96,7 @@ class FitEvidence:
         for k, s in enumerate(self.problem.sets):
             frames = self.problem.frames_of_set(k, self.fit.p)
             if isinstance(s, Points):
-                unknown = [y for y in frames if y.ndim == 1]
-                found.append(np.array(unknown) if unknown else s.points)
+                found.append(points_of(s, frames))
             elif not s.sees_arm:
                 continue
             elif isinstance(s, Distances):
