@@ -223,7 +223,7 @@ def _rough_frames(sets: list[Measurement]) -> list[Array]:
                     f"measurements: {s.what}: expected {name}=, roughly where it is: nothing is "
                     "measured yet"
                 )
-            frames.append(guess)
+            frames.append(np.eye(4) if unknown.guess is None else unknown.guess)
     return frames
 
 
