@@ -118,6 +118,12 @@ def test_a_urdf_has_the_joints_own_values_and_says_so():
     assert text == pk.to_urdf(pk.dh.to_robot(PUMA), name="fanuc")
 
 
+def test_a_coupled_robot_goes_into_a_urdf_with_that_warning_too():
+    mine = pk.to_urdf(pk.dh.to_robot(PUMA)).encode()
+    with pytest.warns(PoekinWarning, match=r"^robot 'fanuc': a URDF has the joints' own values, "):
+        assert pk.to_urdf(pk.dh.to_robot(TABLE), into=mine) == mine
+
+
 def test_a_coupled_chain_goes_into_a_urdf_of_joints_with_a_warning():
     plain = pk.dh.to_robot(PUMA)
     mine = pk.to_urdf(plain).encode()

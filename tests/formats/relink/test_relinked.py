@@ -286,6 +286,20 @@ def test_a_base_beside_the_branch_is_the_chain_s_frame():
     assert result.joint("on") == robot.joint("on")
 
 
+def test_a_base_two_fixed_joints_beside_the_branch_is_the_chain_s_frame():
+    arm, other = pk.load("ur5e"), pk.load("ur10e").chain()
+    joints = [
+        Joint("up", "fixed", "near", "beside", pk.se3.exp([0.5, 0, 0, 0, 0, 0.2])),
+        Joint("on", "fixed", arm.root, "near", pk.se3.exp([0, 0.5, 0, 0.1, 0, 0])),
+        *arm.joints,
+    ]
+    robot = Robot("r", ["near", "beside", *arm.links], joints)
+    result = relinked(robot, other, base="beside", tip="tool0")
+    q = np.full(6, 0.3)
+    found = result.chain("beside", "tool0").fk(q)
+    np.testing.assert_allclose(found, other.fk(q), rtol=0, atol=3e-15)
+
+
 def test_a_tip_that_its_joint_moves_itself_is_the_chain_s_tip_where_it_lies_on_the_axis():
     robot, z = pk.load("ur5e"), pk.load("ur5e").chain(tip="wrist_3_link")
     along = pk.se3.exp([0, 0, 0.1, 0, 0, 0.02])
