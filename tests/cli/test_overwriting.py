@@ -33,6 +33,15 @@ COMMANDS = {
     "apply": (("apply", "MODEL", "ROWS", "--output", "OUT"), "model", "model.urdf"),
     "apply, the calibration": (("apply", "MODEL", "ROWS", "--output", "OUT"), "calibration", "rows.urdf"),
     "calibrate, the model": (("calibrate", "MODEL", "ROWS", *TIP, "--output", "OUT"), "model", "model.urdf"),
+    "calibrate, the separations": (("calibrate", "MODEL", "other.csv", *TIP, "--point", "unknown", "--separations",
+                                    "ROWS", "--output", "OUT"), "separations", "rows.csv"),
+    "choose-poses": (("choose-poses", "MODEL", "8", *TIP, "--candidates", "ROWS", "--output", "OUT"),
+                     "candidates", "rows.csv"),
+    "choose-poses, the measurements": (("choose-poses", "MODEL", "8", *TIP, "--measured", "ROWS", "--output", "OUT"),
+                                       "measurements", "rows.csv"),
+    "from-circles": (("from-circles", "ROWS", "--output", "OUT"), "sweeps", "rows.urdf"),
+    "view": (("view", "MODEL", *TIP, "--path", "ROWS", "--output", "OUT"), "path", "rows.html"),
+    "sweep reach": (("sweep", "reach", "MODEL", *TIP, "--output", "OUT"), "model", "model.npz"),
 }  # fmt: skip
 
 LINKS = {

@@ -124,6 +124,12 @@ def test_joints_of_a_coupled_chain_s_robot_are_as_fast_as_they_are_in_the_chain(
     assert [robot.joint(name).velocity for name in chain.joint_names] == [1, 2, 3, 4, 5, 6]
 
 
+def test_a_coupled_robot_goes_into_a_urdf_with_that_warning_too():
+    mine = pk.to_urdf(pk.dh.to_robot(PUMA)).encode()
+    with pytest.warns(PoekinWarning, match=r"^robot 'fanuc': a URDF has the joints' own values, "):
+        assert pk.to_urdf(pk.dh.to_robot(TABLE), into=mine) == mine
+
+
 def test_a_coupled_chain_goes_into_a_urdf_of_joints_with_a_warning():
     plain = pk.dh.to_robot(PUMA)
     mine = pk.to_urdf(plain).encode()

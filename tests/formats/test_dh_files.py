@@ -48,6 +48,13 @@ def test_a_table_comes_back_from_its_file_to_the_last_digit(ending, table):
     assert again == table
 
 
+@pytest.mark.parametrize("ending", [".toml", ".csv"])
+def test_a_table_without_joints_comes_back_where_it_has_a_tool(ending):
+    table = Table("modified", [], tool=pk.se3.exp([0.5, 0, 0, 0, 0, 0.25]))
+    again = table_io.read_text(table_io.make_text(table, ending), f"arm{ending}")
+    assert again == table
+
+
 def test_both_files_say_the_same():
     a, b = table_io.read_text(TOML, "two.toml"), table_io.read_text(CSV, "two.csv")
     assert a == b

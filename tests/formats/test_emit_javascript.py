@@ -129,6 +129,12 @@ def test_a_hostile_name_stays_in_its_comment(name):
         assert "<!--" not in text
 
 
+def test_the_head_says_where_an_arm_and_a_robot_are_from():
+    of_arm = emit.javascript(arm("panda"), "body", origin="panda.urdf")
+    for text in (of_arm, emit.javascript(pk.load("panda"), origin="panda.urdf")):
+        assert f"\n * Made by poekin {pk.__version__} from panda.urdf\n" in text
+
+
 def test_it_needs_sine_and_cosine_alone_and_says_what_it_costs():
     chain = arm("panda")
     for frame in FRAMES:

@@ -197,5 +197,5 @@ def vector(text: str, option: str) -> Array:
     """Three numbers, commas or blanks between them. Raises: InputError."""
     values = option_numbers(text, option)
     if len(values) != 3:
-        raise InputError(f"{option}: three numbers expected (x,y,z in m), got {len(values)}")
+        raise InputError(f"{option}: three numbers expected (x,y,z), got {len(values)}")
     return values

@@ -519,7 +519,7 @@ def test_wrong_points_and_angles_of_lengths_are_refused(refused, tmp_path):
     path = tmp_path / "d.csv"
     data.write(path, PANDA, s.q, s.measurements)
     cases = {
-        ("--point", "0,0"): "--point: three numbers expected (x,y,z in m), got 2",
+        ("--point", "0,0"): "--point: three numbers expected (x,y,z), got 2",
         ("--point", "0,0,z"): "--point: number 3: a number expected, got 'z'",
         (
             "--sigma-angle",

@@ -109,6 +109,7 @@ OPTIONS = {
         },
     ),
     "workspace": (["--workspace", "0,0,0,2,2,3"], {"workspace": WorkspaceBox([0, 0, 0], [2, 2, 3])}),
+    "its size in mm": (["--workspace", "0,0,0,500,2e3,3e3", "--mm"], {"workspace": WorkspaceBox([0] * 3, [0.5, 2, 3])}),
 }  # fmt: skip
 
 

@@ -53,11 +53,18 @@ def test_a_point_is_in_the_unit_of_lengths():
     )
 
 
+def test_points_and_the_centre_of_a_measurement_are_so_too():
+    said = MM._replace(point=("1000,0,200",), centre="1000,2500,-3")
+    found = measured.known_arguments(said, "distances", 1)
+    np.testing.assert_array_equal(found["point"], [1.0, 0.0, 0.2])
+    np.testing.assert_array_equal(found["centre"], [1.0, 2.5, -0.003])
+
+
 @pytest.mark.parametrize(("text", "count"), [("1,2", 2), ("1 2 3 4", 4), ("", 0)])
 def test_a_point_has_three_numbers(text, count):
     with pytest.raises(InputError) as refused:
         measured.vector(text, "--centre")
-    assert str(refused.value) == (f"--centre: three numbers expected (x,y,z in m), got {count}")
+    assert str(refused.value) == (f"--centre: three numbers expected (x,y,z), got {count}")
     with pytest.raises(InputError, match=r"^--centre: number 2: a number expected, got 'x'$"):
         measured.vector("1,x,3", "--centre")
 

@@ -123,6 +123,12 @@ def test_degrees_and_millimetres_of_joints_go_in_and_out(crane, poekin, as_json,
         np.testing.assert_allclose(table(out)[1].reshape(4, 4), chain.fk(q), rtol=0, atol=1e-15)
 
 
+def test_json_of_many_configurations_is_in_radians_and_metres(crane, as_json, tmp_path):
+    (tmp_path / "q.csv").write_text("180,500\n90,250\n")
+    found = as_json("fk", crane, "--tip", "hook", "--deg", "--mm", "--input", tmp_path / "q.csv")
+    np.testing.assert_array_equal(found["q"], [[np.pi, 0.5], [np.pi / 2, 0.25]])
+
+
 def test_ik_gives_joints_in_the_units_that_are_said_and_fk_reads_them(poekin, tmp_path):
     T = ARM.fk(np.radians(DEGREES))
     text = pk.poses.write(T, "kuka")
@@ -319,3 +325,12 @@ def test_degrees_are_those_of_the_joints_where_poses_of_a_controller_come_in(
         assert header[0] == f"{ARM.q_names[0]} [deg]"
         # rx ry rz of ur are written in rad, to as many digits as a float has; abb's are quaternions
         np.testing.assert_allclose(rows[0, :6], DEGREES, rtol=0, atol=1e-4)
+
+
+@pytest.mark.parametrize("command", ["ik", "follow"])
+def test_joints_in_an_array_are_in_the_units_that_are_said(command, poekin, tmp_path):
+    (tmp_path / "path.txt").write_text(pk.poses.write(ARM.fk(np.radians([DEGREES] * 2)), "kuka"))
+    words = [*UR5E, "--format", "kuka", "--deg", "--q0", ",".join(map(str, DEGREES))]
+    given = ["--input", tmp_path / "path.txt", "--output", tmp_path / "q.npy"]
+    assert poekin(command, *words, *given)[0] == 0
+    np.testing.assert_allclose(np.load(tmp_path / "q.npy"), [DEGREES] * 2, rtol=0, atol=1e-4)

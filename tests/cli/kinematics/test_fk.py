@@ -118,6 +118,15 @@ def test_many_configurations_go_through_files_to_the_last_bit(
     assert not list(tmp_path.glob(".*"))
 
 
+@pytest.mark.parametrize("command", [["fk"], ["jacobian", "--frame", "body"]])
+def test_json_says_what_was_written_and_of_how_many(command, crane, as_json, tmp_path):
+    (tmp_path / "q.csv").write_text("0,0.1\n0.2,0.3\n0.4,0.5\n")
+    out = tmp_path / "out.npy"
+    said = as_json(*command, crane, "--tip", "hook", "--input", tmp_path / "q.csv", "-o", out)
+    assert said == {"written": str(out), "configurations": 3}
+    assert len(np.load(out)) == 3
+
+
 def test_a_single_configuration_is_printed_to_nine_digits_and_the_jacobian_by_its_rows(
     crane, poekin, arm
 ):

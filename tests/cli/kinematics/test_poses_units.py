@@ -70,3 +70,35 @@ def test_limits_hold_unless_the_option_leaves_them(name, said, refused, monkeypa
     given = ("--format", "rpy", "--input", tmp_path / "T.csv")
     assert "that is all" in refused(name, "stanford", *given, *said)
     assert asked == [not said]
+
+
+def test_the_configuration_to_be_near_is_in_the_units_that_are_said(refused, monkeypatch):
+    asked = []
+
+    def solve(*_, q0, nearest_to, **__):
+        asked.extend([q0, nearest_to])
+        raise InputError("that is all")
+
+    monkeypatch.setattr(ik, "ik", solve)
+    numbers = "180,180,1000,180,180,180"
+    words = ("--q0", numbers, "--nearest-to", numbers, "--deg", "--mm")
+    assert "that is all" in refused("ik", "stanford", "--format", "rpy", *range(6), *words)
+    np.testing.assert_array_equal(asked, 2 * [np.where(SLIDES, 1.0, np.pi)])
+
+
+def test_the_start_and_the_limits_of_a_path_are_in_the_units_that_are_said(
+    refused, monkeypatch, tmp_path
+):
+    asked = []
+
+    def solve(*_, q0, speed, acceleration, **__):
+        asked.extend([q0, speed, acceleration])
+        raise InputError("that is all")
+
+    monkeypatch.setattr(follow, "follow", solve)
+    (tmp_path / "T.csv").write_text("100,200,300,0,0,0\n" * 2)
+    numbers = "180,180,1000,180,180,180"
+    words = ("--q0", numbers, "--speed", numbers, "--acceleration", numbers, "--duration", 1)
+    given = ("--format", "rpy", "--input", tmp_path / "T.csv", "--deg", "--mm")
+    assert "that is all" in refused("follow", "stanford", *given, *words)
+    np.testing.assert_array_equal(asked, 3 * [np.where(SLIDES, 1.0, np.pi)])

@@ -55,6 +55,12 @@ def test_degrees_are_taken(poekin):
     assert poekin(*panda("--deg", *degrees))[1] == poekin(*panda(*AWAY))[1]
 
 
+def test_json_is_in_radians_also_where_degrees_are_said(as_json):
+    degrees = np.degrees(list(map(float, AWAY)))
+    said = as_json(*panda("--deg", *degrees))
+    np.testing.assert_allclose(said["q"], list(map(float, AWAY)), rtol=1e-15)
+
+
 def test_the_tolerance_and_the_part_are_taken(poekin):
     assert poekin(*panda("--tolerance", "0.5", *AWAY))[0] == 1
     assert poekin(*panda("--part", "translation", *["0"] * 7))[0] == 0

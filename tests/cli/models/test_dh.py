@@ -58,6 +58,12 @@ def test_json_is_the_table_and_what_is_said_about_it(as_json):
     assert document["error"] <= document["bound"] < 1e-13
 
 
+def test_json_says_where_the_table_is(as_json, tmp_path):
+    place = tmp_path / "ur5e.csv"
+    assert as_json("dh", "ur5e", "-o", place)["written"] == str(place)
+    assert len(pk.dh.read(place)) == 6
+
+
 def test_the_words_have_the_numbers_of_the_function_and_x_stands_where_the_joint_moves(
     poekin, as_json
 ):

@@ -109,6 +109,15 @@ def test_an_error_in_one_file_does_not_hide_the_others(crane, poekin, tmp_path):
     assert len(err.splitlines()) == 1
 
 
+def test_json_tells_of_a_file_that_cannot_be_read_and_does_not_pass(crane, poekin, tmp_path):
+    bad = tmp_path / "bad.urdf"
+    bad.write_text("<robot")
+    code, out, err = poekin("validate", bad, crane, "--samples", 1, "--json")
+    document = json.loads(out)
+    assert (code, document["passed"], document["robots"][0]["passed"]) == (2, False, True)
+    assert err == f"poekin: error: {document['errors'][str(bad)]}\n"
+
+
 def test_what_pinocchio_refuses_is_one_message_with_its_reason(crane, tmp_path, capfd):
     path = tmp_path / "no-limit.urdf"
     path.write_text(

@@ -49,6 +49,16 @@ def test_the_first_ten_candidates_are_listed(place, poekin):
     assert len(out.split("─\n")[1].strip().split("\n")) == 10
 
 
+def test_units_are_those_of_both_files(place, poekin):
+    for name, T in (("targets", TARGETS), ("bases", BASES)):
+        numbers = pk.poses.to_numbers(T, "rpy", mm=True, deg=True)
+        np.savetxt(place / f"{name}_mm.csv", numbers, delimiter=",")
+    files = ("--input", place / "targets_mm.csv", "--bases", place / "bases_mm.csv")
+    said = ("--format", "rpy", "--mm", "--deg", "--json")
+    found = json.loads(poekin("sweep", "base", place / "map.npz", *files, *said)[1])
+    assert found == json.loads(poekin(*words(place), "--json")[1])
+
+
 def test_the_exit_code_says_that_no_candidate_serves_all(place, poekin):
     own = pk.sweep.base_placement(pk.sweep.load_map(place / "map.npz"), TARGETS, BASES[:2])
     assert own.reached[0] < 3

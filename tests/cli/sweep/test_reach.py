@@ -36,6 +36,12 @@ def test_a_map_is_made_written_and_shown(tmp_path, poekin):
     assert json.loads(out)["about"]["samples"]["random"] == 20_000
 
 
+def test_the_map_is_written_beside_json_too(tmp_path, as_json):
+    place = tmp_path / "map.npz"
+    said = as_json("sweep", "reach", "ur5e", *FEW, "--output", place)
+    assert said == json.loads(load_map(place).to_json())
+
+
 def test_options_reach_the_sweep_and_json_is_the_result(poekin):
     words = ("--measure", "manipulability", "--seed", "3", "--workers", "1", "--json")
     code, out, _ = poekin("sweep", "reach", "ur5e", *FEW, *words)

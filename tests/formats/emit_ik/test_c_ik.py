@@ -290,6 +290,13 @@ def test_its_own_test_fails_where_one_digit_of_the_arm_is_wrong(build_once):
     assert (code, said.split()[-1]) == (0, "passed")
 
 
+def test_its_own_test_fails_where_a_solution_is_found_that_is_none_of_the_target_s(build_once):
+    source = emit.c_ik(pk.load("kr5").chain(), name="more")
+    fewer = source.selftest.replace(", 4, 0};", ", 3, 0};")
+    code, said = build_once(replace(source, selftest=fewer)).selftest()
+    assert (code, said.split()[-1]) == (1, "FAILED")
+
+
 def test_without_any_solution_a_test_has_one_row_that_is_not_read():
     text = selftest("far", np.zeros(3), Targets(np.eye(4)[None], [np.empty((0, 3))]))
     (rows,) = re.findall(r"EXPECTED\[1\]\[3\] = \{\n(.*?)\n\};", text, re.DOTALL)

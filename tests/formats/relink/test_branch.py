@@ -84,3 +84,15 @@ def test_an_axis_at_a_right_angle_to_the_new_one_keeps_its_sign():
     axis = JointAxis(np.array([1.0, 0.0, 0.0]), None, 0.0)
     joint = branch._pointing(pitched(1.0), axis, np.eye(4))
     assert joint.axis == (0, 0, 1)
+
+
+def test_all_fixed_joints_behind_the_last_moving_one_lead_to_the_chain_s_tip_together():
+    chain = pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [0, 0, 0])], TILT)
+    joints = [Joint("j", "revolute", "a", "l0", np.eye(4), (0, 0, 1))]
+    for k in range(3):
+        step = se3.exp(np.roll([0.5, 0, 0, 0.25, 0, 0], k))
+        joints.append(Joint(f"f{k}", "fixed", f"l{k}", f"l{k + 1}", step))
+    found = branch.branch_of(joints, chain, "auto").joints
+    np.testing.assert_array_equal([j.origin for j in found[2:]], [j.origin for j in joints[2:]])
+    tip = np.linalg.multi_dot([joint.origin for joint in found])
+    np.testing.assert_allclose(tip, TILT, rtol=0, atol=2e-15)

@@ -192,6 +192,14 @@ def test_pinocchio_sees_the_table_in_the_urdf_and_the_links_where_the_nominal_ar
     np.testing.assert_array_equal(back.limits, nominal.limits)
 
 
+def test_the_base_of_a_table_moves_the_first_frame_alone():
+    base = pk.se3.exp([0.25, 0.5, 0, 0.5, 0, 1])
+    lifted = Table(NOMINAL.convention, NOMINAL.rows, base=base)
+    first, *others = ur.from_dh(NOMINAL, nominal=NOMINAL).poses
+    found = ur.from_dh(lifted, nominal=lifted).poses
+    np.testing.assert_allclose(found, [base @ first, *others], rtol=0, atol=1e-14)
+
+
 def test_deltas_on_the_nominal_table_are_the_arm_s_own():
     table = ur.add_deltas(NOMINAL, **DELTAS)
     for column in ("theta", "d", "a"):

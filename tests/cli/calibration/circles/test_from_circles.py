@@ -69,6 +69,11 @@ def test_files_in_any_order_make_the_arm_and_a_model_of_it(poekin, files, tmp_pa
     np.testing.assert_allclose(*places, rtol=0, atol=1e-11)
 
 
+def test_json_lists_what_was_written(as_json, files, tmp_path):
+    out = tmp_path / "arm.urdf"
+    assert as_json(*ARM, *files, "-o", out)["written"] == [str(out)]
+
+
 def test_names_units_and_poses_are_as_said(as_json, tmp_path):
     sweeps = sweep_all(SCARA, HELD, poses=True)
     paths = written(tmp_path, sweeps, ["a", "b", "c", "d"])
