@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import ModelError, PoekinWarning
 from poekin.formats.vendors.known_arms import RIZON
-from poekin.formats.vendors.yaml_io import read_text
+from poekin.formats.vendors.yaml_io import RpyAxes, read_text
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.formats.vendors.origins import (
     RIZON_4S,
@@ -120,7 +120,11 @@ def test_angles_turn_about_fixed_axes_unless_something_else_is_said():
 def test_the_flange_s_angles_turn_about_the_axes_that_are_said_as_the_joints_do():
     roll, pitch, yaw = (pk.so3.exp(turn) for turn in np.diag([0.3, 0.4, 0.5]))
     text = yaml(RIZON_4S, axes=RIZON_AXES, flange=(0.1, 0, 0, 0.3, 0.4, 0.5))
-    for axes, R in (("fixed", yaw @ pitch @ roll), ("moving", roll @ pitch @ yaw)):
+    turned: dict[RpyAxes, np.ndarray] = {
+        "fixed": yaw @ pitch @ roll,
+        "moving": roll @ pitch @ yaw,
+    }
+    for axes, R in turned.items():
         np.testing.assert_allclose(read_text(text, rpy=axes).flange[:3, :3], R, atol=1e-14)
 
 

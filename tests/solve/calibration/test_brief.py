@@ -14,7 +14,7 @@ ARM = pk.load("ur5").chain()
 MADE = pk.calibration.simulated(ARM, 30, kind="points", noise=(1e-4, 1e-4), seed=2)
 FOUND = pk.calibrate(ARM, MADE.q, MADE.measurements, folds=2)
 LEFT_OUT = pk.calibrate(
-    ARM, MADE.q, Points(MADE.measurements.p[5:], MADE.measurements.points, rows=range(5, 30)),
+    ARM, MADE.q, Points(MADE.measurements.measured[5:], rows=range(5, 30)),
     loss="huber", folds=0, on_rank_deficiency="fix",
 )  # fmt: skip
 COMMAND = FOUND.compensate(ARM.fk(MADE.q[0]), nearest_to=MADE.q[0])

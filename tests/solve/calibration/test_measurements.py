@@ -422,10 +422,11 @@ def test_an_unknown_frame_has_six_parameters_however_it_is_said():
 
 def test_lengths_of_any_number_of_points_and_of_poses_are_taken_in_another_unit():
     five = Points(np.ones((2, 5, 3)), np.zeros((5, 3)))
-    assert (five.scaled(1e-3).p == 1e-3).all()
+    assert (five.scaled(1e-3).measured == 1e-3).all()
     poses = Poses(T)
-    assert (poses.scaled(1e-3).T[:, :3, 3] == 1e-3 * T[:, :3, 3]).all()
-    assert (poses.scaled(1e-3).T[:, :3, :3] == T[:, :3, :3]).all()
+    scaled = poses.scaled(1e-3).measured
+    assert (scaled[:, :3, 3] == 1e-3 * T[:, :3, 3]).all()
+    assert (scaled[:, :3, :3] == T[:, :3, :3]).all()
     assert (poses.T == T).all()
 
 
