@@ -47,6 +47,13 @@ def test_a_mesh_is_scaled_then_placed_on_its_link_and_a_mirrored_one_still_faces
     assert node.attachment == Attachment("meshes", "first", 1, 0, "a")
 
 
+def test_a_mesh_that_is_mirrored_twice_is_turned_and_its_faces_are_as_they_were(folder):
+    mesh = '<mesh filename="m.stl" scale="-2 -3 4"/>'
+    (node,), _ = mesh_nodes(robot_of(folder, visual(mesh)))
+    wanted = corners(TETRAHEDRON * [-2, -3, 4], FACES)
+    assert np.array_equal(corners(node.vertices, node.faces), wanted)
+
+
 def test_visuals_of_one_colour_on_a_link_are_one_node_and_the_model_s_colour_is_first(folder):
     red = '<material name="red"><color rgba="1 0.5 0.25 0.5"/></material>'
     visuals = visual(MESH) + visual(MESH, red) + visual(MESH, '<material name="red"/>')

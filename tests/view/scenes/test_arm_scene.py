@@ -16,6 +16,7 @@ from poekin.analysis.axis_lines import uncoupled_at_zero
 from poekin.errors import InputError, ShapeError, UnknownName
 from poekin.formats.visuals.visual import LeftOut
 from poekin.testing.strategies.chain_strategies import chains, coordinates
+from poekin.view.kinematics import tip_chain
 from poekin.view.nodes import Cloud, Label, Node, Polyline, Triangles
 from poekin.view.scene import Scene, Slider
 from poekin.view.scenes.arm import arm_geometry, arm_nodes, arm_scene, arm_size
@@ -417,6 +418,24 @@ def test_a_singular_opening_is_said_in_words():
     assert "singular" not in " ".join(arm_scene(arm, q=away).words)
 
 
+@pytest.mark.parametrize("straight", ["left", "right"])
+def test_of_two_arms_the_one_that_is_shown_is_said_to_be_singular_where_it_is(straight):
+    step = pk.se3.exp([0, 0, 0, 0.3, 0, 0])
+    joints = []
+    for side in ("left", "right"):
+        above = "body"
+        for k in range(4):
+            kind = "revolute" if k < 3 else "fixed"
+            link = f"{side} {k + 1}"
+            joints.append(pk.Joint(link, kind, above, link, step, (0, 0, 1), limits=(-3, 3)))
+            above = link
+    robot = pk.Robot("two arms", ["body", *(joint.child for joint in joints)], joints)
+    q = [0, 0, 0, 0.2, 0.7, 0.9] if straight == "left" else [0.2, 0.7, 0.9, 0, 0, 0]
+    for side in ("left", "right"):
+        said = " ".join(arm_scene(robot, q=q, tip=f"{side} 4").words)
+        assert (f"'{side} 4' where the page opens: singular" in said) == (side == straight)
+
+
 def test_a_cloud_holds_points_that_the_tip_reaches():
     arm = pk.load("ur5e").chain()
     (cloud,) = of_kind(arm_scene(arm, cloud=50).nodes, Cloud, "cloud")
@@ -442,6 +461,21 @@ def test_the_cloud_of_a_floating_robot_is_where_the_floating_joint_is_zero():
     assert cloud.attachment.link is None
     np.testing.assert_allclose(cloud.points, [[0.1, 0, 1]] * 3, atol=1e-15)
     assert "Floating and planar joints are at zero: 'fly'." in scene.words
+
+
+def test_a_floating_robot_has_the_coupled_readings_that_it_had():
+    step = pk.se3.exp([0, 0.3, 0, 0.4, 0, 0])
+    robot = pk.Robot(
+        "drone",
+        ["world", "body", "upper", "hand"],
+        [
+            pk.Joint("fly", "floating", "world", "body"),
+            pk.Joint("J1", "revolute", "body", "upper", step, limits=(-2, 2)),
+            pk.Joint("J2", "revolute", "upper", "hand", step, limits=(-2, 2)),
+        ],
+    ).coupled("J2 = J1 + J2")
+    q = [0.3, 0.5]
+    np.testing.assert_allclose(tip_chain(robot, "hand").fk(q), robot.fk(q)["hand"], atol=1e-15)
 
 
 def test_a_tip_that_nothing_moves_leaves_the_others_their_jacobians():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -92,3 +94,28 @@ def test_residuals_of_nothing_have_no_arrows_and_small_ones_are_drawn_a_thousand
     arrows = [n for n in scene.nodes if isinstance(n, Triangles) and n.attachment.layer == "cloud"]
     assert [n.attachment.name for n in arrows] == ["residuals of the nominal arm × 1000"]
     assert all(np.isfinite(n.vertices).all() for n in arrows)
+
+
+WARNINGS = ("The tool may have slipped.", "An axis is not known.")
+
+
+@pytest.fixture(scope="module")
+def doubtful(found):
+    return calibration_scene(replace(found, warnings=WARNINGS))
+
+
+def test_warnings_of_the_calibration_are_said_on_its_page(doubtful):
+    assert doubtful.words[1:3] == WARNINGS
+
+
+def test_measured_points_are_coloured_by_the_residuals_of_the_nominal_arm(found, doubtful):
+    (cloud,) = [n for n in doubtful.nodes if isinstance(n, Cloud)]
+    lengths = np.linalg.norm(found.residuals.before, axis=1)
+    np.testing.assert_allclose(np.asarray(cloud.values), lengths, rtol=1e-14)
+
+
+def test_nine_of_ten_arrows_of_both_arms_are_within_a_tenth_of_the_arm(found, doubtful):
+    (words,) = [w for w in doubtful.words if w.startswith("Residuals are drawn")]
+    both = np.array([found.residuals.before, found.residuals.after])
+    lengths = float(words.split()[3]) * np.linalg.norm(both, axis=-1)
+    assert np.quantile(lengths, 0.9) <= 0.1 * doubtful.size

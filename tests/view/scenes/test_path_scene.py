@@ -128,3 +128,17 @@ def test_what_is_played_beyond_the_limits_is_reached_by_the_sliders_and_said():
     assert [x.upper for x in scene.arms[0].coordinates] == end.tolist()
     assert scene.words[-1] == f"What is shown goes beyond the limits of '{ARM.q_names[0]}'."
     assert "beyond" not in " ".join(path_scene(joint_path(ARM, Q)).words)
+
+
+def test_the_way_is_that_of_the_tip_where_a_target_is_missed_and_frames_are_finite_targets():
+    T = ARM.fk(Q[:20])
+    T[5] = np.nan
+    T[12, 2, 3] += 3.0
+    path = pk.follow(ARM, T, q0=Q[0])
+    scene = path_scene(path)
+    known = np.delete(np.arange(20), 5)
+    (way,) = [n for n in scene.nodes if isinstance(n, Polyline) and n.attachment.role == "path"]
+    np.testing.assert_allclose(way.points, ARM.fk(path.q[known])[:, :3, 3], atol=1e-15)
+    frames = [n for n in scene.nodes if n.attachment.layer == "path" and n.attachment.role == "x"]
+    starts = [n.vertices[-2] for n in frames if isinstance(n, Triangles)]
+    np.testing.assert_allclose(starts, T[known, :3, 3], atol=1e-12)

@@ -120,3 +120,22 @@ def test_every_way_to_turn_some_of_the_angles_is_looked_at_the_fewest_first(n):
     assert set(np.abs(rows[:, :n]).ravel()) <= {0.0, TURN}
     assert not rows[:, n].any()
     assert (np.diff((rows != 0).sum(axis=1)) >= 0).all()
+
+
+def test_a_joint_that_opens_away_from_zero_is_turned_by_half_of_what_its_limits_leave_there():
+    sliders = [Slider("a", "rad", 1.0, 2.0), Slider("b", "rad", -7.0, -5.0)]
+    rows = list(_turned(sliders, [0, 1], np.array([1.5, -5.5])))
+    assert [row.tolist() for row in rows[:4]] == [
+        [1.75, -5.5], [1.25, -5.5], [1.5, -5.25], [1.5, -6.25],
+    ]  # fmt: skip
+
+
+def test_an_arm_that_only_places_its_tip_opens_where_it_moves_it_in_all_directions():
+    axes = [([0, 0, 1], [0, 0, 0]), ([0, 1, 0], [0, 0, 0.4]), ([0, 1, 0], [0.4, 0, 0.4])]
+    arm = pk.Chain.from_space(
+        [pk.screw.revolute(*axis) for axis in axes], pk.se3.exp([0, 0, 0, 0.7, 0, 0.4])
+    )
+    assert pk.singularity(arm, np.zeros(3)).singular
+    scene = arm_scene(arm)
+    np.testing.assert_array_equal(scene.q, [0, 0, TURN])
+    assert not pk.singularity(arm, scene.q).singular

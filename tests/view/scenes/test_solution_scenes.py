@@ -141,3 +141,11 @@ def test_a_pose_without_solutions_is_shown_with_its_sentence():
 def test_a_coordinate_below_a_billionth_is_a_zero_in_words():
     assert configuration_words(ARM, np.full(6, -4e-10)) == ", ".join(["0°"] * 6)
     assert "0°" not in configuration_words(ARM, np.full(6, 6e-10)).split(", ")
+
+
+def test_each_choice_says_the_number_of_its_own_places():
+    arm = pk.load("ur5e").chain(tip="tool0")
+    found = pk.ik_all(arm, arm.fk([0, -1.2, 1.5, -0.3, 0.8, 0]))
+    assert len({*found.n_revolutions.tolist()}) > 1
+    for choice, places in zip(solutions_scene(found).choices, found.n_revolutions, strict=True):
+        assert choice.text.endswith(f"(one of {places} places, whole turns apart)")

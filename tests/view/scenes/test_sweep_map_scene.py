@@ -79,6 +79,20 @@ def test_a_map_out_of_a_file_is_drawn_in_the_robot_that_is_named(tmp_path):
     assert pk.view(found, robot=ROBOT) is not None
 
 
+@pytest.mark.parametrize("keep", ["best", "worst", "mean"])
+def test_the_words_say_the_largest_value_of_the_points_that_are_drawn(keep):
+    scene = sweep_map_scene(run(Sweep(ARM, SAMPLES, CELLS, "travel", keep)))
+    largest = np.asarray(cloud(scene).values).max()
+    assert f"Blue to orange: {keep} joint travel, 0 to {largest:.4g} rad or m." in scene.words
+
+
+def test_a_map_of_a_part_out_of_a_file_hangs_on_the_link_where_the_part_begins(tmp_path):
+    part = ROBOT.chain(base="upper_arm_link", tip="tool0")
+    run(Sweep(part, Random.of(part, 100), CELLS)).save(tmp_path / "map.npz")
+    node = cloud(sweep_map_scene(load_map(tmp_path / "map.npz"), ROBOT))
+    assert node.attachment.link == ROBOT.links.index("upper_arm_link")
+
+
 def test_a_map_of_nothing_is_refused():
     far = Cells((5.0, 5.0, 5.0), 0.1, (2, 2, 2))
     with pytest.raises(InputError, match="no cube of the map was reached"):

@@ -11,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.view.nodes import Label
+from poekin.view.nodes import Label, Polyline
 from poekin.view.scenes.arm_parts.of_chain import chain_geometry
 from poekin.view.scenes.two_arms.exaggerated import (
     FACTOR,
@@ -193,6 +193,21 @@ def test_the_frame_of_a_tool_that_is_aligned_is_drawn_where_model_b_has_it():
     true = chain_geometry(found.b).poses(q)[-1]
     place = true @ [*at_rest.point, 1.0]
     np.testing.assert_allclose(drawn @ [*label.point, 1.0], place, atol=1e-12)
+
+
+def test_an_axis_that_is_tilted_is_drawn_along_that_of_model_b():
+    found = pk.compare(ARM, moved(3, [0.01, 0, 0.01, 0, 0, 0]))
+    made = exaggerated(found)
+    assert made.factor > 1
+    name = found.b.joint_names[3]
+    nodes = second_nodes(made, {name: "tilted"}, (), 1.0)
+    (line,) = [node for node in nodes if isinstance(node, Polyline)]
+    q = ARM.random(6)
+    drawn = chain_geometry(made.chain).poses(np.append(q, 1.0))[line.attachment.link]
+    true = chain_geometry(found.b).poses(q)[3]
+    way = drawn[:3, :3] @ np.diff(line.points, axis=0)[0]
+    axis = true[:3, :3] @ found.b.screws[3, :3]
+    np.testing.assert_allclose(way / np.linalg.norm(way), axis, atol=1e-9)
 
 
 @pytest.mark.parametrize(("length", "follows"), [(0.03, True), (0.08, False)])
