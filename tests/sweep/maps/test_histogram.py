@@ -133,3 +133,13 @@ def test_its_summary_says_below_which_value_a_share_of_the_configurations_is():
 @pytest.mark.parametrize("kind", dataclasses_of("poekin.sweep.maps", "histogram"))
 def test_a_histogram_is_frozen_and_equal_only_where_its_parts_can_be(kind):
     assert frozen_and_equal_only_where_its_parts_can_be(kind)
+
+
+def test_a_summary_has_the_shares_of_what_is_in_the_bins():
+    edges = np.linspace(0.0, 1.0, 11)
+    counts = np.full(10, 10)
+    found = pk.sweep.MeasureHistogram(
+        {"measure": "manipulability", "samples": {"random": 400}}, edges, counts, 300
+    )
+    _, words = found.summary().split("\n")
+    assert words == "manipulability: 5 % below 0.1, half below 0.5, 95 % below 1"

@@ -141,3 +141,11 @@ def test_sweeps_of_arms_that_differ_in_one_number_have_other_keys(what, place):
     numbers = getattr(ARM, what).copy()
     numbers[place] -= 2.0**-40
     assert Sweep(ARM.replace(**{what: numbers}), SAMPLES, CELLS).key() != key
+
+
+def test_so_do_sweeps_of_arms_of_which_one_has_a_limit_of_a_joint_that_the_other_has_not():
+    keys = set()
+    for upper in (np.inf, 5.0, 6.0):
+        arm = ARM.replace(joint_limits=[[-np.inf, np.inf], [-5.0, upper]])
+        keys.add(Sweep(arm, SAMPLES, CELLS).key())
+    assert len(keys) == 3

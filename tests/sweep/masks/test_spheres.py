@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import poekin as pk
 from poekin.errors import InputError, ShapeError, UnknownName
 from poekin.sweep.masks.spheres import moved_links
 from poekin.sweep.masks.touching import touching
@@ -120,3 +121,23 @@ def test_a_sphere_that_is_none_is_named_by_its_number(robot, arm, one, kind, wor
     with pytest.raises(kind) as caught:
         moved_links(robot, arm, [GIVEN[0], one])
     assert says(caught.value, words)
+
+
+def test_links_touch_where_the_offsets_of_the_coordinates_bring_them(robot, arm, links):
+    q = arm.random(4, 600)
+    offset = np.array([0.5, -0.9, 1.1])
+    found = touching(arm.replace(offset=offset), q, links, [(0, 2), (1, 2)])
+    np.testing.assert_array_equal(found, touching(arm, q + offset, links, [(0, 2), (1, 2)]))
+    assert (found != touching(arm, q, links, [(0, 2), (1, 2)])).any()
+
+
+def test_a_sphere_on_another_branch_moves_with_the_joints_before_the_fork_alone():
+    step = pk.se3.exp([0, 0, 0, 0.3, 0, 0])
+    ways = [("body", "chest"), ("chest", "a 1"), ("a 1", "a 2"), ("chest", "b 1"), ("b 1", "b 2")]
+    joints = [pk.Joint(f"to {ends[1]}", "revolute", *ends, step) for ends in ways]
+    robot = pk.Robot("fork", ["body", *(joint.child for joint in joints)], joints)
+    given = [(link, [0.0, 0.0, 0.1], 0.05) for link in robot.links]
+    found = moved_links(robot, robot.chain(tip="a 2"), given)
+    assert {link.name: link.joints for link in found} == {
+        "body": 0, "chest": 1, "a 1": 2, "a 2": 3, "b 1": 1, "b 2": 1,
+    }  # fmt: skip

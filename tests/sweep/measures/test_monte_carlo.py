@@ -64,6 +64,32 @@ def test_the_bias_of_a_turn_about_one_axis_is_that_of_a_cosine():
     assert drawn.orientation == pytest.approx(0.2, rel=6 / np.sqrt(1e5))
 
 
+def test_arms_are_drawn_with_the_offsets_of_their_coordinates():
+    arm = two_links()
+    error = PoseUncertainty.by_tolerances(arm, offset=1e-3)
+    plain = monte_carlo(arm, [0.4, 0.5], error, draws=200)
+    shifted = monte_carlo(arm.replace(offset=[0.3, -0.4]), [0.1, 0.9], error, draws=200)
+    assert shifted.position == pytest.approx(plain.position, rel=1e-9)
+    assert shifted.orientation == pytest.approx(plain.orientation, rel=1e-9)
+
+
+def test_the_bias_of_the_orientation_is_in_base_axes():
+    """An axis tilted by δ a about x at half a turn, and the home pose then by δ b about -y: a turn of
+    e^{2 δ a x} e^{-δ b y} in base axes, whose logarithm is -δ² a b z in the mean.
+    """
+    arm = two_links()
+    home = pk.se3.exp([0.5 * np.pi, 0, 0, 0.8, 0, 0])
+    a, b = 0.02, 0.03
+    own = home[:3, :3].T @ [0, b, 0]
+    source = ((0.0,) * 6, (a, *(0.0,) * 5), (*own.tolist(), 0.0, 0.0, 0.0))
+    drawn = monte_carlo(
+        arm.replace(home=home), [0.0, np.pi], PoseUncertainty((source,)), draws=20_000
+    )
+    # the standard deviation of δ² is √2; six of them over the root of the pairs
+    assert drawn.orientation_bias[2] == pytest.approx(-a * b, rel=6 * np.sqrt(2 / 10_000))
+    np.testing.assert_allclose(drawn.orientation_bias[:2], 0.0, atol=1e-3 * a * b)
+
+
 def test_one_configuration_a_batch_and_a_dict_are_alike():
     chain = slide()
     error = PoseUncertainty.by_tolerances(chain, tilt=1e-3)
