@@ -94,6 +94,8 @@ def test_a_calibration_has_the_covariance_of_its_poses():
         np.testing.assert_allclose(sigma(found.chain, q, sources, part), expected, rtol=1e-6)
     error = PoseUncertainty.by_calibration(found)
     assert np.array_equal(error.sources, sources)
+    turned = PoseUncertainty.by_calibration(found, "orientation")
+    assert (error.part, turned) == ("position", PoseUncertainty(error.sources, "orientation"))
 
 
 @pytest.mark.parametrize(
