@@ -318,6 +318,12 @@ def test_a_slider_opens_at_zero_or_in_the_middle_or_at_its_only_bound(bounds, op
     assert opening_q((Slider("q", "rad", *bounds),)).tolist() == [opening]
 
 
+def test_a_slider_has_the_unit_of_the_joint_that_its_coordinate_moves():
+    screws = [pk.screw.prismatic([1, 0, 0]), pk.screw.revolute([0, 1, 0], [0, 0, 0.2])]
+    arm = pk.Chain(np.array(screws), np.eye(4), frame="space", coupling=[[0, 1], [1, 0]])
+    assert [slider.unit for slider in chain_geometry(arm).sliders] == ["rad", "m"]
+
+
 def test_a_table_rounds_to_six_decimals():
     screw = pk.screw.revolute([0, 0, 1], [1.26e-5, 0.1234564, 0])
     chain = pk.Chain.from_space([screw], np.eye(4))
