@@ -281,6 +281,21 @@ def test_what_locked_readings_leave_of_joints_limits_is_the_domain_of_the_others
         x[k] = 0.0
 
 
+def test_beside_a_locked_reading_another_has_what_the_offset_of_its_joint_leaves_it():
+    slides = [pk.screw.prismatic(way) for way in ([1, 0, 0], [0, 1, 0])]
+    chain = pk.Chain.from_space(
+        slides,
+        np.eye(4),
+        coupling=[[1, 0], [1, 1]],
+        offset=[0, 0.25],
+        joint_limits=[[0, 2], [0, 1]],
+    )
+    lock = {chain.q_names[0]: 0.5}
+    domain = make_joint_domain(joint_units(chain.compile(), True), tuple(lock.items()), True)
+    np.testing.assert_allclose(domain.limits[1], [-0.75, 0.25], atol=1e-15)
+    assert pk.ik(chain, chain.fk([0.5, -0.7]), lock=lock).success
+
+
 def test_readings_that_cannot_keep_a_joint_s_limits_beside_what_is_locked_have_their_own():
     chain = narrow(ARM.coupled("J3 = J2 + J3"), -0.1, 0.1)
     units = joint_units(chain.compile(), True)

@@ -120,6 +120,16 @@ def test_what_is_solved_only_as_it_comes_to_rest_has_the_errors_of_a_solution():
     assert max(found.position_error.max(), found.rotation_error.max()) <= 1e-9
 
 
+def test_an_arm_in_degrees_has_the_tasks_and_solutions_that_it_has_in_radians():
+    arm = planar([1.0, 0.7])
+    degrees = arm.replace(coupling=np.deg2rad(np.eye(2)))
+    T = arm.fk([[0.3, 0.9], [0.2, 0.8]])
+    tilted = ik(degrees, T @ se3.exp([0.3, 0.2, 0, 0, 0, 0]))
+    assert tilted.reachable_tasks == (("planar", "position"),) * 2
+    at_rest = ik(degrees, T, q0=np.rad2deg([0.1, 0.7]), restarts=0, iterations=1)
+    assert (at_rest.reason == "solved").all()
+
+
 @pytest.mark.parametrize("name", sorted(MAKERS))
 def test_out_of_reach_an_arm_comes_to_rest_at_the_least_error_nearby(name):
     arm = MAKERS[name](0.7, 0.4)

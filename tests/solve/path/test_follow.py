@@ -191,6 +191,28 @@ def test_a_pose_out_of_reach_is_told_and_the_path_goes_on_after_it():
     assert said.startswith(f"poses 36 to 63 not reached, least of all {k}: unreachable: ")
 
 
+def test_an_arm_in_degrees_is_as_near_to_a_first_pose_out_of_reach_as_in_radians():
+    arm = planar([[-3, 3], [-3, 3], [0, 0.1]])
+    degrees = arm.replace(
+        coupling=np.diag([np.pi / 180] * 2 + [1.0]), limits=[[-172, 172], [-172, 172], [0, 0.1]]
+    )
+    T = np.tile(np.eye(4), (1, 1, 1))
+    T[0, :2, 3] = 1.5, 1.6
+    path = follow(degrees, T, task="position")
+    assert path.position_error[0] == pytest.approx(np.hypot(1.5, 1.6) - 2, abs=1e-3)
+
+
+def test_an_arm_in_degrees_jumps_to_the_nearest_solution_where_its_branch_changes(panda):
+    arm = panda.chain
+    degrees = arm.replace(coupling=np.deg2rad(np.eye(7)), limits=np.rad2deg(arm.limits))
+    q = arm.random(1, 2)
+    T = arm.fk(q)
+    path = follow(degrees, T, q0=np.rad2deg(q[0]), max_step=[3.0] * 7)
+    assert path.branch_switches == (1,)
+    nearest = ik(degrees, T[1], nearest_to=path.q[0])
+    np.testing.assert_allclose(path.q[1], nearest.q, rtol=0, atol=1e-6)
+
+
 def test_a_bad_target_is_skipped(ur5):
     T = straight(ur5, UR5_Q, [0, 0.1, 0], 20)
     whole = follow(ur5, T, q0=UR5_Q)

@@ -165,6 +165,12 @@ def test_the_report_says_it_all_in_sentences():
         path.solution.summary(7)
 
 
+def test_of_rotations_that_are_not_reached_the_farthest_off_is_named():
+    errors = [[0, 0.1], [0, 0.3], [0, 0.2]]
+    path = followed([[0, 1, 0.1]] * 3, ["unreachable"] * 3, errors, task="rotation")
+    assert "poses 0 to 2 not reached, least of all 1: " in path.summary()
+
+
 def test_a_singularity_is_told_in_the_words_of_what_the_task_asks():
     q = [[0.0, 0.5, 0.1], [0.0, 5e-4, 0.1], [0.0, 1e-3, 0.1]]
     (said,) = followed(q).summary().splitlines()[1:]

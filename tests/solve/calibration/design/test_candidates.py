@@ -152,6 +152,9 @@ def test_candidates_that_take_joints_beyond_their_own_limits_are_refused_with_th
     said = f"candidates[17]: joint '{arm.joint_names[1]}' = 0.5 is outside its limits -0.3 to 0.3"
     with pytest.raises(InputError, match=f"^{re.escape(said)}$"):
         choose(arm, 6, q)
+    first = arm.replace(coupling=[[1, 1], [0, 1]], joint_limits=[[-0.3, 0.3], [-2, 2]])
+    with pytest.raises(InputError, match=rf"joint '{arm.joint_names[0]}' = 0.5 is outside"):
+        choose(first, 6, q[17:18])
     q[20] = [1.0, 2.0]  # the coordinate, too, is beyond its limits
     with pytest.raises(InputError, match=r"; 2 of the 40 candidates cannot be taken$"):
         choose(arm, 6, q)

@@ -123,6 +123,7 @@ def test_residuals_of_ten_times_the_noise_that_was_told_are_a_reason(reasons, ra
 @pytest.mark.parametrize(("name", "most", "words"), [
     ("elbow_joint: tilt", np.radians(3), "the axis of elbow_joint moves by 3.03° and 0 mm"),
     ("elbow_joint: shift", 0.0425, "the axis of elbow_joint moves by 0° and 42.9 mm"),
+    ("shoulder_lift_joint: shift", 0.0425, "the axis of shoulder_lift_joint moves by 0° and 42.9 mm"),
     ("wrist_3_joint: shift", 0.1 * 0.1193, "the axis of wrist_3_joint moves by 0° and 12 mm"),
     ("home: turn", np.radians(3), "the tip moves by 3.03° and 0 mm"),
     ("home: shift", 0.025, "the tip moves by 0° and 25"),

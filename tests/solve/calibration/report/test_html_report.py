@@ -18,7 +18,14 @@ import poekin as pk
 from poekin import html_page
 from poekin.errors import FileError, MissingExtra, ShapeError
 from poekin.groups import se3
-from poekin.solve.calibration import Distances, Points, Poses, calibrate
+from poekin.solve.calibration import (
+    CrossValidation,
+    Distances,
+    Points,
+    Poses,
+    Residuals,
+    calibrate,
+)
 from poekin.solve.calibration.diagnostics.effects.diagnosis import SavedEvidence
 from poekin.solve.calibration.measurements.simulated import simulated
 from poekin.solve.calibration.report import changes, html_report, pendant, plots
@@ -485,6 +492,27 @@ def test_an_outlier_is_from_the_source_of_its_row_of_q():
     found = calibrate(ARM, q, poses, parameters=("home",), loss="huber", folds=0)
     assert found.outliers == (Outlier(0, 4, 9),)
     assert "x.csv:9<" in "".join(html_report._outliers(found, [f"x.csv:{k}" for k in range(60)]))
+
+
+def two_sets(length):
+    return Residuals(np.array(length), np.full(3, np.nan), np.array([0, 1, 1]), np.array([0, 1, 2]))
+
+
+def test_an_outlier_of_a_second_set_has_its_own_error_there(found):
+    after = two_sets([1e-3, 2e-3, 7e-3])
+    other = dataclasses.replace(found, after=after, outliers=(Outlier(1, 1, 2),))
+    assert '<td class="number">7</td>' in "".join(html_report._outliers(other, None))
+
+
+def test_each_set_has_the_errors_that_the_calibrated_arm_leaves_on_held_out_data(found, undrawn):
+    kept = CrossValidation(two_sets([0.1, 0.2, 0.2]), two_sets([0.01, 0.02, 0.02]), 3)
+    all_data = {"before": two_sets([0.3] * 3), "after": two_sets([0.4] * 3)}
+    other = dataclasses.replace(
+        found, **all_data, cross_validation=kept, noise_std=(None, None), terms=()
+    )
+    page = "".join(html_report._residuals(other))
+    for k, rms in enumerate(("10", "20")):
+        assert re.search(rf"set {k}, calibrated</td>\s*<td[^>]*>{rms}</td>", page)
 
 
 def test_outliers_and_parameters_stand_in_rows_with_their_errors_and_sources(found, tables, text):

@@ -88,7 +88,7 @@ def test_the_head_says_how_many_steps_and_whether_it_converged():
     [(1, "0"), (12, "11"), (13, "11 and 1 more"), (30, "11 and 18 more")],
 )
 def test_twelve_outliers_are_named_and_the_others_counted(count, ending):
-    outliers = tuple(Outlier(0, k, k) for k in range(count))
+    outliers = tuple(Outlier(0, k // 2, k) for k in range(count))  # by their rows of q
     (line,) = (x for x in lines(replace(FOUND, outliers=outliers)) if x.startswith("outliers"))
     named = ", ".join(str(k) for k in range(min(count, 12) - 1))
     assert line == f"outliers: rows {named}{', ' * (count > 1)}{ending}"

@@ -41,6 +41,15 @@ def test_the_nearest_to_q0_is_not_a_whole_turn_away_from_it(limit):
         assert np.abs(found.q - q0).max() < 0.1
 
 
+def test_the_nearest_to_a_q0_of_several_turns_is_less_than_half_a_turn_from_it():
+    arm = pk.load("panda").chain(tip="panda_hand")
+    wide = arm.replace(limits=[[-10, 10]] * 7)
+    q0 = np.random.default_rng(0).uniform(-9, 9, 7)
+    found = ik(wide, arm.fk(arm.random(0)), q0=q0, secondary_objective="nearest")
+    assert found.success
+    assert np.abs(found.q - q0).max() < np.pi
+
+
 @pytest.mark.parametrize("length", [1.0, 2.0])
 def test_a_step_that_is_too_long_is_made_shorter(length):
     # a table that slides far to the side: what brings the slides back turns the tip about a circle
