@@ -332,28 +332,25 @@ def test_a_trajectory_that_takes_a_joint_beyond_its_own_limits_says_so():
     assert "leaves" not in inside.summary()
 
 
-def test_a_trajectory_is_beyond_a_joint_s_own_limits_by_the_joint_s_value_not_its_readings_alone():
-    slides = [pk.screw.prismatic([1, 0, 0]), pk.screw.prismatic([0, 1, 0])]
-    chain = pk.Chain.from_space(
-        slides,
+def offset_table():
+    """Two slides; the second is at the sum of both readings and 0.25 m."""
+    return pk.Chain.from_space(
+        [pk.screw.prismatic([1, 0, 0]), pk.screw.prismatic([0, 1, 0])],
         np.eye(4),
         coupling=[[1, 0], [1, 1]],
         offset=[0, 0.25],
         joint_limits=[[0, 2], [0, 1]],
     )
+
+
+def test_a_trajectory_is_beyond_a_joint_s_own_limits_by_the_joint_s_value_not_its_readings_alone():
+    chain = offset_table()
     found = pk.motion.time_optimal(chain, [[0, 0], [0.5, 0.5]], speed=1.0, acceleration=1.0)
     np.testing.assert_allclose(found.joints_beyond_limits, [0, 0.25], rtol=1e-9)
 
 
 def test_a_pose_is_within_a_joint_s_own_limits_by_the_joint_s_value_not_its_readings_alone():
-    slides = [pk.screw.prismatic([1, 0, 0]), pk.screw.prismatic([0, 1, 0])]
-    chain = pk.Chain.from_space(
-        slides,
-        np.eye(4),
-        coupling=[[1, 0], [1, 1]],
-        offset=[0, 0.25],
-        joint_limits=[[0, 2], [0, 1]],
-    )
+    chain = offset_table()
     found = pk.ik(chain, chain.fk([[0.5, -0.65], [0.5, 0.35]]))  # the second slide at 0.1 and 1.1
     assert found.reason.tolist() == ["solved", "limits"]
     assert found.limits_hit == ((), ("joint2",))

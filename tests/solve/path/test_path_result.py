@@ -358,14 +358,3 @@ def test_each_event_has_its_place_its_kind_and_its_line_of_the_summary():
         (3, 3, "singular"),
     ]
     assert [event.text for event in path.events] == path.summary().splitlines()[1:]
-
-
-def test_a_path_is_drawn_over_its_times_and_not_joined_where_the_branch_changes(
-    drawn_figures, tmp_path
-):
-    pytest.importorskip("matplotlib")
-    q = [[0, 1, 0], [0.1, 0.7, 0.1], [2, 0.75, 0.3], [2, 0.7, 0.3]]
-    followed(q, changes=[2], times=[0, 1, 3, 7]).plot(tmp_path / "path.svg")
-    before, after, _ = drawn_figures[0].axes[0].lines
-    assert [before.get_xdata().tolist(), after.get_xdata().tolist()] == [[0, 1], [3, 7]]
-    assert (tmp_path / "path.svg").read_text().startswith("<?xml")
