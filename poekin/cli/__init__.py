@@ -70,7 +70,7 @@ def _invoke(arguments: Sequence[str] | None) -> int:
         import typer
     except ModuleNotFoundError as missing:
         raise MissingExtra(missing.name or "typer", "cli", "the command line") from missing
-    from .commands import app
+    from .commands import command
     from .output import complain
 
     said: set[str] = set()
@@ -91,7 +91,7 @@ def _invoke(arguments: Sequence[str] | None) -> int:
         warnings.simplefilter("always", PoekinWarning)
         warnings.showwarning = show  # type: ignore[assignment]
         try:
-            code = app(args=arguments or ["--help"], prog_name="poekin", standalone_mode=False)
+            code = command(args=arguments or ["--help"], prog_name="poekin", standalone_mode=False)
         except usage as error:
             message = error.format_message()
             choices = getattr(getattr(error, "param", None), "help", None)

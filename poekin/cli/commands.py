@@ -67,3 +67,7 @@ def _options(
     ] = False,
 ) -> None:
     pass
+
+
+command = typer.main.get_command(app)
+"""All of them, as one command that is called with `args`; an app itself makes them anew at every call."""
