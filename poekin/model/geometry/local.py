@@ -9,6 +9,7 @@ possible: so the numbers stay small, and nothing blows up where axes are paralle
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -16,8 +17,10 @@ import numpy as np
 from ... import algebra
 from ...engine.kernels import chain_kernels
 from ...groups.arrays import Array
-from ...groups.vectors import angular_part, linear_part, rotation_part, translation_part
+from ...groups.vectors import angular_part, rotation_part, translation_part
 from ..checks import read_only
+
+Scalars = tuple[float, ...]
 
 
 class LocalForm(NamedTuple):
@@ -47,46 +50,65 @@ def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
     pitches (n,).
     """
     n = len(screws)
-    frames = np.tile(np.eye(4), (n + 1, 1, 1))
     turning = np.any(angular_part(screws), axis=1)
     rotates = turning.astype(float)
     slides = np.where(turning, pitches, 1.0)
-    w = angular_part(screws)
-    feet = np.stack(algebra.cross(w.T, linear_part(screws).T), axis=1)
-    R = np.eye(3)
-    origin = np.zeros(3)
-    for i, S in enumerate(screws):
-        z = linear_part(S)
-        there = origin
-        if turning[i]:
-            z = angular_part(S)
-            gap = origin - feet[i]
-            there = feet[i] + z * (z @ gap)
-        frames[i, :3, :3] = turned_least(R.T @ z)
-        frames[i, :3, 3] = R.T @ (there - origin)
-        R = R @ rotation_part(frames[i])
-        origin = there
+    here = algebra.IDENTITY  # T_base_link
+    links = []
+    for S, turns in zip(screws.tolist(), turning.tolist(), strict=True):
+        link, origin = _next_link(here, S, turns)
+        links.append(link)
+        here = algebra.make_pose(algebra.compose(here, link), origin)
+    rows = np.array(links).reshape(n, 12)
+    R = np.reshape(here[:9], (3, 3))
+    to_tip = translation_part(home) - algebra.translation(here)
+    frames = np.zeros((n + 1, 4, 4))
+    frames[:, 3, 3] = 1.0
+    frames[:n, :3, :3] = rows[:, :9].reshape(n, 3, 3)
+    frames[:n, :3, 3] = rows[:, 9:]
     frames[n, :3, :3] = R.T @ rotation_part(home)
-    to_tip = translation_part(home) - origin
     frames[n, :3, 3] = R.T @ to_tip
+    frames += 0.0  # no zero with a sign
     return LocalForm(read_only(frames), read_only(rotates), read_only(slides))
 
 
+def _next_link(here: Scalars, S: Scalars, turns: bool) -> tuple[Scalars, Scalars]:
+    """The pose of a joint's frame in that of the one before, T_base_link, and its origin in the base
+    frame.
+    """
+    before = algebra.translation(here)
+    z = algebra.linear(S)
+    origin = before
+    if turns:
+        z = algebra.angular(S)
+        foot = algebra.cross(z, algebra.linear(S))
+        gap = algebra.subtract(before, foot)
+        origin = algebra.add(foot, algebra.scale(algebra.dot(z, gap), z))
+    R = _turned_least(*algebra.unrotate(here, z))
+    moved = algebra.subtract(origin, before)
+    return algebra.make_pose(R, algebra.unrotate(here, moved)), origin
+
+
 def turned_least(z: Array) -> Array:
-    """The rotation that takes (0, 0, 1) to the unit vector z by the smallest angle; by way of
+    """The rotation that takes (0, 0, 1) to the direction of z by the smallest angle; by way of
     diag(1, -1, -1) where z points down, so that it has no singularity.
     """
-    x, y, c = (z / np.linalg.norm(z)).tolist()
+    R = np.reshape(_turned_least(*z.tolist()), (3, 3))
+    return R + 0.0  # no zero with a sign
+
+
+def _turned_least(x: float, y: float, c: float) -> Scalars:
+    length = math.hypot(x, y, c)
     s = 1.0 if c >= 0 else -1.0
-    y *= s
-    c *= s
+    x /= length
+    y *= s / length
+    c *= s / length
     k = 1.0 / (1.0 + c)
-    rows = [
-        [1.0 - k * x * x, -k * x * y, x],
-        [-s * k * x * y, s - s * k * y * y, s * y],
-        [-s * x, -s * y, s * c],
-    ]
-    return np.array(rows) + 0.0  # no zero with a sign
+    return (
+        *(1.0 - k * x * x, -k * x * y, x),
+        *(-s * k * x * y, s - s * k * y * y, s * y),
+        *(-s * x, -s * y, s * c),
+    )
 
 
 def kernel_table(form: LocalForm, coupling: Array | None, offset: Array) -> Array:

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import ScrewError, ShapeError, quote
 from ...groups.arrays import Array, numbers
-from ...groups.vectors import angular_part, linear_part, norm, norms
+from ...groups.vectors import angular_part, directions, linear_part, norm, norms
 from ..checks import LONGEST, finite
 from .remedies import UNIT, matrix_among, other_reading
 
@@ -27,25 +27,21 @@ def unit_screws(
     reading of the numbers fits.
     """
     S = _rows(screws, what)
-    for i, row in enumerate(S):
-        if not (np.abs(row) <= LONGEST).all():
-            raise ScrewError(
-                f"{_place(what, i, names)}: expected finite numbers of at most {LONGEST:g}, got {row.tolist()}"
-            )
-        part = row[:3]
-        name = "omega"
-        if not part.any():
-            part = row[3:]
-            name = "v, where omega = 0,"
-        length = norm(part)
-        if abs(length - 1.0) > UNIT:
-            remedy = other_reading(S, what) or other_reading(row, f"{what}[{i}]")
-            raise ScrewError(
-                f"{_place(what, i, names)}: {name} must have length 1 to {UNIT:g}, got {length:.12g} in"
-                f" {row.tolist()}{remedy}"
-            )
-        if abs(length - 1.0) > _EXACT:
-            row /= length  # all six, which leaves the line where it is
+    for i in np.flatnonzero(~(np.abs(S) <= LONGEST).all(axis=1)):
+        raise ScrewError(
+            f"{_place(what, i, names)}: expected finite numbers of at most {LONGEST:g}, got {S[i].tolist()}"
+        )
+    lengths = norms(directions(S))
+    off = np.abs(lengths - 1.0)
+    for i in np.flatnonzero(off > UNIT):
+        name = "omega" if angular_part(S[i]).any() else "v, where omega = 0,"
+        remedy = other_reading(S, what) or other_reading(S[i], f"{what}[{i}]")
+        raise ScrewError(
+            f"{_place(what, i, names)}: {name} must have length 1 to {UNIT:g}, got {lengths[i]:.12g} in"
+            f" {S[i].tolist()}{remedy}"
+        )
+    inexact = off > _EXACT
+    S[inexact] /= lengths[inexact, None]  # all six, which leaves the line where it is
     return S
 
 

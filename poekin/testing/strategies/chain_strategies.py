@@ -143,11 +143,12 @@ def chains(
 
     Examples
     --------
-    >>> from hypothesis import find
+    >>> from hypothesis import given
     >>> from poekin.testing import strategies
-    >>> arms = strategies.chains(min_joints=2, joint_kinds=["revolute"])
-    >>> find(arms, lambda chain: True).kinds
-    ('revolute', 'revolute')
+    >>> @given(strategies.chains(min_joints=2, joint_kinds=["revolute"]))
+    ... def test_all_joints_turn(chain):
+    ...     assert set(chain.kinds) == {"revolute"}
+    >>> test_all_joints_turn()
     """
     bounds = arguments.counts(min_joints, max_joints)
     return _chains(

@@ -71,13 +71,14 @@ def within_limits(chain: Any) -> Arrays:
 
     Examples
     --------
-    >>> from hypothesis import find
+    >>> from hypothesis import given
     >>> import poekin as pk
     >>> from poekin.testing import strategies
     >>> arm = pk.load("panda").chain(tip="panda_hand")
-    >>> q = find(strategies.within_limits(arm), lambda q: True)
-    >>> bool((q >= arm.limits[:, 0]).all() and (q <= arm.limits[:, 1]).all())
-    True
+    >>> @given(strategies.within_limits(arm))
+    ... def test_no_limit_is_passed(q):
+    ...     assert (arm.limits[:, 0] <= q).all() and (q <= arm.limits[:, 1]).all()
+    >>> test_no_limit_is_passed()
     """
     pairs = bounds(chain).tolist()
 

@@ -115,11 +115,13 @@ def tables(
 
     Examples
     --------
-    >>> from hypothesis import find
+    >>> from hypothesis import given
+    >>> import poekin as pk
     >>> from poekin.testing import strategies
-    >>> table = find(strategies.tables(min_joints=2), lambda table: True)
-    >>> table.convention, len(table.theta)
-    ('standard', 2)
+    >>> @given(strategies.tables(min_joints=2))
+    ... def test_each_row_is_a_joint(table):
+    ...     assert len(pk.dh.to_chain(table).kinds) == len(table) >= 2
+    >>> test_each_row_is_a_joint()
     """
     bounds = arguments.counts(min_joints, max_joints)
     return _tables(bounds, arguments.some("conventions", conventions, CONVENTIONS))

@@ -80,12 +80,13 @@ def robots(
 
     Examples
     --------
-    >>> from hypothesis import find
+    >>> from hypothesis import given
     >>> import poekin as pk
     >>> from poekin.testing import strategies
-    >>> files = strategies.robots(min_joints=1).map(pk.to_urdf)
-    >>> "<joint" in find(files, lambda text: True)
-    True
+    >>> @given(strategies.robots(min_joints=1).map(pk.to_urdf))
+    ... def test_a_joint_is_written(text):
+    ...     assert "<joint" in text
+    >>> test_a_joint_is_written()
     """
     least, most = arguments.counts(min_joints, max_joints)
     some = arguments.some("kinds", kinds, KINDS)

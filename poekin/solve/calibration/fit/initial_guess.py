@@ -16,7 +16,7 @@ import numpy as np
 from ....errors import InputError
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....groups.vectors import normalised_or_zero, norms, rotation_part, translation_part
+from ....groups.vectors import applied, normalised_or_zero, norms, rotation_part, translation_part
 from ..model.tsqr import least_squares
 from .flatness import FLAT, describe, extents, is_flat
 from .reweighted import Weighted, reweighted
@@ -320,36 +320,42 @@ def _rigid(a: Array, b: Array, w: Array) -> Weighted[Array]:
 
 def _multilateral(p: Array, d: Array, w: Array) -> Weighted[Array]:
     mean = w @ p / w.sum()
-    x = p - mean
-    squares = x * x
     # a point that the centre may stand on has d = 0: its row is divided by what is usual
     usual = 0.1 * np.median(d)
     divisor = 2 * np.maximum(d, usual + _TINY)
     row = np.sqrt(w) / divisor
-    # brings the fourth column to the size of the others
-    length = np.sqrt(np.mean(squares)) + _TINY
-    constant = np.full(len(x), -length)
-    design = np.column_stack([2 * x, constant])
-    rhs = squares.sum(axis=1) - d * d
+    design, rhs = _squared(p - mean, d)
     solution = least_squares(design * row[:, None], rhs * row)
-    c = solution[:3]
-    misses = norms(x - c) - d
-    return Weighted(c + mean, np.abs(misses))
+    c = mean + solution[:3]
+    return Weighted(c, _misses(p, d, c))
+
+
+def _squared(x: Array, d: Array) -> tuple[Array, Array]:
+    """Rows (..., N, 4) and right sides (..., N) of 2 x_i . c - |c|^2 = |x_i|^2 - d_i^2."""
+    squares = x * x
+    # brings the fourth column to the size of the others
+    length = np.sqrt(squares.mean(axis=(-2, -1), keepdims=True)) + _TINY
+    constant = np.broadcast_to(-length, (*d.shape, 1))
+    design = np.concatenate([2 * x, constant], axis=-1)
+    return design, squares.sum(axis=-1) - d * d
+
+
+def _misses(p: Array, d: Array, c: Array) -> Array:
+    return np.abs(norms(p - c) - d)
 
 
 def _of_fours(p: Array, d: Array) -> Weighted[Array]:
     """The centre out of four distances that leaves the least median residual, of `FOURS` draws:
     with two fifths of outliers all draws have one once in a million times.
     """
-    count = len(p)
     rng = np.random.default_rng(0)
-    found = []
-    for _ in range(FOURS):
-        weights = np.zeros(count)
-        four = rng.choice(count, 4, replace=False)
-        weights[four] = 1.0
-        found.append(_multilateral(p, d, weights))
-    return min(found, key=lambda guess: guess.median)
+    fours = np.array([rng.choice(len(p), 4, replace=False) for _ in range(FOURS)])
+    points = p[fours]
+    means = points.mean(axis=1)
+    design, rhs = _squared(points - means[:, None], d[fours])
+    solutions = applied(np.linalg.pinv(design), rhs)
+    centres = means + solutions[:, :3]
+    return min((Weighted(c, _misses(p, d, c)) for c in centres), key=lambda guess: guess.median)
 
 
 def _nearer(
@@ -366,8 +372,7 @@ def _nearer(
         away = c - p
         rows = normalised_or_zero(away) * root[:, None]
         c = c - least_squares(rows, (norms(away) - d) * root)
-    misses = norms(p - c) - d
-    return Weighted(c, np.abs(misses))
+    return Weighted(c, _misses(p, d, c))
 
 
 def _check_count(count: int, need: int, what: str) -> None:
