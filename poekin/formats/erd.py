@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import os
 from collections import Counter
+from collections.abc import Mapping
+from functools import cache
 from pathlib import PurePosixPath
+from types import MappingProxyType
 
 from ..errors import MissingExtra, UnknownName, quote, suggest
 from ..model.robot import Robot
@@ -13,8 +16,9 @@ from . import urdf
 PACKAGE = "example-robot-data"
 
 
-def available() -> dict[str, str]:
-    """Every URDF file of the package: a dict from name to path, in alphabetical order.
+@cache  # the package lists some thousand files
+def available() -> Mapping[str, str]:
+    """Paths of every URDF file of the package by name, in alphabetical order.
 
     The name is the file's, without `.urdf`; where two files share it, it is preceded by the name of
     the robot's folder: `anymal_b_simple_description/anymal`.
@@ -34,7 +38,7 @@ def available() -> dict[str, str]:
         if count[name] > 1:
             name = f"{_folder(file)}/{name}"
         named[name] = os.fspath(file.locate())
-    return dict(sorted(named.items()))
+    return MappingProxyType(dict(sorted(named.items())))
 
 
 def example_robots() -> tuple[dict[str, str], dict[str, str]]:

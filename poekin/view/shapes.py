@@ -46,7 +46,7 @@ class Surface(NamedTuple):
 
     def placed(self, point: Array, z: Array) -> Surface:
         """Surface whose z axis comes to lie along the unit vector z, its origin at a point."""
-        R = turned_least(z)
+        R = np.reshape(turned_least(*z), (3, 3))
         vertices = self.vertices @ R.T + point
         return Surface(vertices, self.faces)
 
@@ -184,7 +184,7 @@ def tube(points: ArrayLike, radius: float) -> Surface:
     """Tube of a radius along a curve through points (n, 3) that does not turn back on itself."""
     points = np.asarray(points, float)
     tangents = normalised(np.gradient(points, axis=0))
-    across = turned_least(tangents[0])[:, 0]
+    across = np.array(turned_least(*tangents[0])[0::3])
     turn = _turns(AROUND)[:, None]
     cosine = np.cos(turn)
     sine = np.sin(turn)

@@ -7,6 +7,7 @@ import math
 import pathlib
 import warnings
 from collections import Counter
+from collections.abc import Mapping
 
 import numpy as np
 import pytest
@@ -258,7 +259,7 @@ def test_what_is_no_name_is_refused(name):
         load(name)
 
 
-def robots() -> dict[str, str]:
+def robots() -> Mapping[str, str]:
     try:
         return erd.available()
     except MissingExtra:
@@ -295,6 +296,7 @@ def test_without_example_robot_data_its_name_is_in_the_message(monkeypatch):
     def missing(package: str):
         raise importlib.metadata.PackageNotFoundError(package)
 
+    erd.available.cache_clear()
     monkeypatch.setattr(importlib.metadata, "files", missing)
     with pytest.raises(MissingExtra, match="needs the package example-robot-data"):
         load("erd:panda")

@@ -7,6 +7,7 @@ traced, and the cheapest is taken.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any, NamedTuple
@@ -77,9 +78,18 @@ def cheapest_program(arm: Structure, frame: str | int | None, pose: bool) -> Pro
     index), or of its pose alone where frame is None; of both where `pose`. Outputs: the twelve
     numbers of the pose, then six rows of J.
     """
-    ways = product((False, True), repeat=2)
-    programs = (_traced(arm, frame, pose, *way) for way in ways)
+    programs = (_traced(arm, frame, pose, *way) for way in _ways(frame))
     return min(programs, key=_cost)
+
+
+def _ways(frame: str | int | None) -> Iterable[tuple[bool, bool]]:
+    """The walks inward and outward, each by the point that the axes see or by their origins; only in a
+    joint's own frame are there both.
+    """
+    either = (False, True)
+    if frame is None or isinstance(frame, str):
+        return zip(either, either, strict=True)
+    return product(either, either)
 
 
 def cheapest_frame(arm: Structure) -> tuple[int, float]:
@@ -146,8 +156,7 @@ def manipulability_program(arm: Structure, frame: str | int) -> Program:
     coordinates, of the Jacobian in a frame. Outputs: the twelve numbers of the pose, the
     determinant.
     """
-    ways = product((False, True), repeat=2)
-    programs = (_measured(arm, frame, *way) for way in ways)
+    programs = (_measured(arm, frame, *way) for way in _ways(frame))
     return min(programs, key=_cost)
 
 

@@ -20,8 +20,6 @@ from ...groups.arrays import Array
 from ...groups.vectors import angular_part, rotation_part, translation_part
 from ..checks import read_only
 
-Scalars = tuple[float, ...]
-
 
 class LocalForm(NamedTuple):
     """Constant poses and z-aligned screws of a chain of n joints.
@@ -49,60 +47,43 @@ def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
     """The local form of checked screws (n, 6) in the base frame, the home pose (4, 4) and the
     pitches (n,).
     """
-    n = len(screws)
     turning = np.any(angular_part(screws), axis=1)
-    rotates = turning.astype(float)
-    slides = np.where(turning, pitches, 1.0)
     here = algebra.IDENTITY  # T_base_link
     links = []
     for S, turns in zip(screws.tolist(), turning.tolist(), strict=True):
-        link, origin = _next_link(here, S, turns)
+        before = algebra.translation(here)
+        z = algebra.linear(S)
+        origin = before
+        if turns:
+            z = algebra.angular(S)
+            foot = algebra.cross(z, algebra.linear(S))
+            gap = algebra.subtract(before, foot)
+            origin = algebra.add(foot, algebra.scale(algebra.dot(z, gap), z))
+        moved = algebra.subtract(origin, before)
+        turned = turned_least(*algebra.unrotate(here, z))
+        link = algebra.make_pose(turned, algebra.unrotate(here, moved))
         links.append(link)
         here = algebra.make_pose(algebra.compose(here, link), origin)
-    rows = np.array(links).reshape(n, 12)
-    R = np.reshape(here[:9], (3, 3))
-    to_tip = translation_part(home) - algebra.translation(here)
-    frames = np.zeros((n + 1, 4, 4))
-    frames[:, 3, 3] = 1.0
-    frames[:n, :3, :3] = rows[:, :9].reshape(n, 3, 3)
-    frames[:n, :3, 3] = rows[:, 9:]
-    frames[n, :3, :3] = R.T @ rotation_part(home)
-    frames[n, :3, 3] = R.T @ to_tip
-    frames += 0.0  # no zero with a sign
-    return LocalForm(read_only(frames), read_only(rotates), read_only(slides))
+    X, Y, Z, tip = home[:3].T.tolist()
+    to_tip = algebra.subtract(tip, algebra.translation(here))
+    tool = (algebra.unrotate(here, a) for a in (X, Y, Z, to_tip))
+    rows = np.array([*links, algebra.from_axes(*tool)]) + 0.0  # no zero with a sign
+    frames = np.tile(np.eye(4), (len(rows), 1, 1))
+    frames[:, :3, :3] = rows[:, :9].reshape(-1, 3, 3)
+    frames[:, :3, 3] = rows[:, 9:]
+    slides = np.where(turning, pitches, 1.0)
+    return LocalForm(read_only(frames), read_only(turning.astype(float)), read_only(slides))
 
 
-def _next_link(here: Scalars, S: Scalars, turns: bool) -> tuple[Scalars, Scalars]:
-    """The pose of a joint's frame in that of the one before, T_base_link, and its origin in the base
-    frame.
+def turned_least(x: float, y: float, z: float) -> tuple[float, ...]:
+    """The rotation, row by row, that takes (0, 0, 1) to the direction of (x, y, z) by the smallest
+    angle; by way of diag(1, -1, -1) where that points down, so that it has no singularity.
     """
-    before = algebra.translation(here)
-    z = algebra.linear(S)
-    origin = before
-    if turns:
-        z = algebra.angular(S)
-        foot = algebra.cross(z, algebra.linear(S))
-        gap = algebra.subtract(before, foot)
-        origin = algebra.add(foot, algebra.scale(algebra.dot(z, gap), z))
-    R = _turned_least(*algebra.unrotate(here, z))
-    moved = algebra.subtract(origin, before)
-    return algebra.make_pose(R, algebra.unrotate(here, moved)), origin
-
-
-def turned_least(z: Array) -> Array:
-    """The rotation that takes (0, 0, 1) to the direction of z by the smallest angle; by way of
-    diag(1, -1, -1) where z points down, so that it has no singularity.
-    """
-    R = np.reshape(_turned_least(*z.tolist()), (3, 3))
-    return R + 0.0  # no zero with a sign
-
-
-def _turned_least(x: float, y: float, c: float) -> Scalars:
-    length = math.hypot(x, y, c)
-    s = 1.0 if c >= 0 else -1.0
+    length = math.hypot(x, y, z)
+    s = 1.0 if z >= 0 else -1.0
     x /= length
     y *= s / length
-    c *= s / length
+    c = s * z / length
     k = 1.0 / (1.0 + c)
     return (
         *(1.0 - k * x * x, -k * x * y, x),

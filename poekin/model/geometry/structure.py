@@ -93,7 +93,8 @@ def _structure(chain: ChainData) -> Structure:
         slides = kind == "prismatic"
         z, p = axis_near(S, slides, frame.o)
         if not joints:
-            x, y, _ = map(exact, turned_least(np.array(z, float)).T)
+            R = turned_least(*map(float, z))
+            x, y = map(exact, (R[0::3], R[1::3]))
             frame = Frame(x, y, z, p)
             base = _pose(frame)
             joints.append(_Joint())
@@ -144,8 +145,8 @@ def _step(frame: Frame, z: Vector, p: Vector, slides: bool) -> _Step:
 
 def _least_turned(tip: Frame, z: Vector) -> Vector:
     """Direction x beside z that is turned from the tip's as little as possible."""
-    u = np.array(tip.of(z), float)
-    return unit(across(tip.out(exact(turned_least(u)[:, 0])), z))
+    x = turned_least(*map(float, tip.of(z)))[0::3]
+    return unit(across(tip.out(exact(x)), z))
 
 
 def _as_structure(

@@ -64,7 +64,10 @@ def reweighted(
     found = first or solved(np.ones(count))
     for _ in range(ROUNDS):
         scale = max(found.median, floor)
-        found = solved(scale / np.maximum(found.residuals, scale))
+        again = solved(scale / np.maximum(found.residuals, scale))
+        if again is found:  # and would be at every further round
+            break
+        found = again
     kept = np.ones(count, bool)
     for _ in range(TRIMS):
         r = found.residuals

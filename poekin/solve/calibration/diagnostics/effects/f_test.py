@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .....groups.arrays import Array
+from ...model.tsqr import qr_r
 from ...selection.jackknife import Jackknife
 from ...selection.spans import RANK, beside, column_sizes, directions_beside, spanned
 
@@ -53,7 +54,8 @@ def coefficients(
 ) -> Array:
     """Least squares (P,) of errors (M,), of columns of any sizes; those that are not told are 0."""
     sizes = column_sizes(columns)
-    z: Any = np.linalg.lstsq(columns / sizes, errors, rcond=RANK)[0]
+    R = qr_r(np.column_stack([columns / sizes, errors]))
+    z: Any = np.linalg.lstsq(R[:, :-1], R[:, -1], rcond=RANK)[0]
     return np.asarray(z / sizes, float)
 
 
