@@ -58,12 +58,22 @@ SLOW = (
     ),
     *("formats/urdf_in_place/test_in_place.py", "formats/relink/test_relinked.py"),
     *("formats/test_urdf_text.py", "cli/formats/test_draw.py"),
+    *(
+        "analysis/test_validate.py::test_every_root_to_leaf_chain_of_every_example_robot_is_taken",
+        "formats/ros/test_description.py::test_the_robots_of_example_robot_data_come_through",
+        "formats/test_dh.py::test_every_chain_of_the_real_robots_has_a_table",
+        "formats/test_load.py::test_every_robot_of_example_robot_data_is_read",
+        "model/kinematics/test_pose_jacobian.py::test_no_joint_of_a_real_robot_looks_helical",
+        "model/test_idealised.py::test_chains_of_every_real_robot",
+        "solve/ik_all/test_closed_form.py::test_no_solution_of_the_robots_of_example_robot_data",
+        "view/meshes/test_find.py::test_every_mesh_of_example_robot_data",
+    ),
     # 60 digits at degenerate inputs
     *("formulas/ik/test_circle_conic.py", "formulas/ik/test_two_circles.py"),
     "formulas/ik/test_three_parallel.py",
 )
-"""Files and folders, below tests/, of more than half the time and a seventh of the tests; `make
-test-all` runs them too.
+"""Files, folders and tests, below tests/, of more than half the time and a seventh of the tests;
+`make test-all` runs them too.
 """
 
 # In samples of mutants 50 examples let none through that 100 see. Where one number of many
