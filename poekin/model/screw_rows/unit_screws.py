@@ -27,13 +27,13 @@ def unit_screws(
     reading of the numbers fits.
     """
     S = _rows(screws, what)
-    for i in np.flatnonzero(~(np.abs(S) <= LONGEST).all(axis=1)):
+    for i in np.flatnonzero(~(np.abs(S) <= LONGEST).all(axis=1)).tolist():
         raise ScrewError(
             f"{_place(what, i, names)}: expected finite numbers of at most {LONGEST:g}, got {S[i].tolist()}"
         )
     lengths = norms(directions(S))
     off = np.abs(lengths - 1.0)
-    for i in np.flatnonzero(off > UNIT):
+    for i in np.flatnonzero(off > UNIT).tolist():
         name = "omega" if angular_part(S[i]).any() else "v, where omega = 0,"
         remedy = other_reading(S, what) or other_reading(S[i], f"{what}[{i}]")
         raise ScrewError(

@@ -9,7 +9,7 @@ The arm is taken as it is described, so a guess is as exact as that is true.
 from __future__ import annotations
 
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -353,7 +353,8 @@ def _of_fours(p: Array, d: Array) -> Weighted[Array]:
     points = p[fours]
     means = points.mean(axis=1)
     design, rhs = _squared(points - means[:, None], d[fours])
-    solutions = applied(np.linalg.pinv(design), rhs)
+    inverses: Any = np.linalg.pinv(design)
+    solutions = applied(inverses, rhs)
     centres = means + solutions[:, :3]
     return min((Weighted(c, _misses(p, d, c)) for c in centres), key=lambda guess: guess.median)
 

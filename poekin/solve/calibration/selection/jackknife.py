@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -78,7 +80,8 @@ def _inverse(A: Array) -> tuple[Array, Array]:
     squares = np.square(np.eye(A.shape[1]) - A).sum(axis=(1, 2))
     if squares.max(initial=0.0) < 0.25:
         # no eigenvalue is below a half: to invert is many times quicker than to find them
-        return np.linalg.inv(A), np.zeros(A.shape[:2])
+        inverses: Any = np.linalg.inv(A)
+        return inverses, np.zeros(A.shape[:2])
     values, V = np.linalg.eigh(A)
     known = (values > _LEAST)[:, None, :]
     scaled = np.where(known, V / np.maximum(values, _LEAST)[:, None, :], 0.0)

@@ -11,8 +11,10 @@ from tests.solve.calibration.fit.sagging import ARM, POINTS, SAG, measured, sagg
 TRUTHS = 15
 EACH = 20
 ROWS = 50
-KNOWN = 2500
-"""Configurations from which an arm is known: a fit's errors are smaller there by the root of 50."""
+KNOWN = 1000
+"""Configurations from which an arm is known: a fit's errors are smaller there by the root of 20, so
+that of 95 % half a per cent is lost.
+"""
 TWO_SIGMA = 1.96
 KINDS = [("reflectors", SAG), ("reflectors", 0.0), ("poses", 0.0), ("poses", SAG), ("point", 0.0), ("point", SAG),
          ("distance", 0.0), ("camera", 0.0), ("camera", SAG)]  # fmt: skip
@@ -24,9 +26,9 @@ def predicted(found: Calibration, q: np.ndarray, s: Measurement) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("kind", "sag"), KINDS)
-def test_intervals_of_predicted_measurements_hold_their_share(kind, sag):
+def test_intervals_of_predictions_hold_their_share(kind, sag):
     """The arm that the best fit of all configurations is, sag or none, is what a fit looks for."""
-    inside = []
+    inside: dict[str, list[float]] = {"measurements": [], "distances": [], "motions": []}
     for truth in range(TRUTHS):
         rng = np.random.default_rng([truth, 7])
         true = true_arm(rng)
@@ -43,35 +45,28 @@ def test_intervals_of_predicted_measurements_hold_their_share(kind, sag):
             off = predicted(found, q, s) - predicted(best, q, s)
             C = found.measurement_covariance(q, s)
             sizes = np.sqrt(np.diagonal(C, axis1=1, axis2=2))
-            inside.append(np.mean(np.abs(off) < TWO_SIGMA * sizes))
+            inside["measurements"].append(float(np.mean(np.abs(off) < TWO_SIGMA * sizes)))
+            if kind == "poses":
+                inside["distances"].append(_distance_is_inside(found, best, q, POINTS[0]))
+                inside["motions"].append(_share_of_motion(found, best, q))
     # 300 calibrations of 50 configurations: the share is known to a per cent
-    assert 0.92 <= np.mean(inside) <= 0.98
+    shares = {what: np.mean(values) for what, values in inside.items() if values}
+    assert all(0.92 <= share <= 0.98 for share in shares.values()), shares
 
 
-@pytest.mark.parametrize("sag", [0.0, SAG])
-def test_intervals_of_distances_and_relative_motions_hold_their_share(sag):
-    distances = []
-    motions = []
-    for truth in range(TRUTHS):
-        rng = np.random.default_rng([truth, 8])
-        true = true_arm(rng)
+def _distance_is_inside(
+    found: Calibration, best: Calibration, q: np.ndarray, point: np.ndarray
+) -> bool:
+    a, b = q
+    off = _distance(found, a, b, point) - _distance(best, a, b, point)
+    return bool(abs(off) < TWO_SIGMA * found.distance_deviation(a, b, point))
 
-        def fitted(count: int, rng: np.random.Generator = rng, true=true) -> Calibration:
-            q = ARM.random(rng, count)
-            return calibrate(ARM, q, measured("poses", sagged(true, q, sag), rng), folds=0)
 
-        best = fitted(KNOWN)
-        for _ in range(EACH):
-            found = fitted(ROWS)
-            a, b = ARM.random(rng, 2)
-            place = POINTS[0]
-            off = _distance(found, a, b, place) - _distance(best, a, b, place)
-            distances.append(abs(off) < TWO_SIGMA * found.distance_deviation(a, b, place))
-            motion = _motion(found, a, b)[:3, 3] - _motion(best, a, b)[:3, 3]
-            sizes = np.sqrt(np.diag(found.relative_covariance(a, b))[3:])
-            motions.append(np.mean(np.abs(motion) < TWO_SIGMA * sizes))
-    assert 0.92 <= np.mean(distances) <= 0.98
-    assert 0.92 <= np.mean(motions) <= 0.98
+def _share_of_motion(found: Calibration, best: Calibration, q: np.ndarray) -> float:
+    a, b = q
+    off = _motion(found, a, b)[:3, 3] - _motion(best, a, b)[:3, 3]
+    sizes = np.sqrt(np.diag(found.relative_covariance(a, b))[3:])
+    return float(np.mean(np.abs(off) < TWO_SIGMA * sizes))
 
 
 def _motion(found: Calibration, a: np.ndarray, b: np.ndarray) -> np.ndarray:
