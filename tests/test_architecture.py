@@ -23,7 +23,8 @@ from tools import readable
 ROOT = Path(__file__).resolve().parent.parent
 
 FLOORS = {
-    "errors": 0, "checks": 0, "algebra": 0, "results": 0, "version": 0, "svg": 0, "html_page": 0, "progress_line": 0,
+    "errors": 0, "checks": 0, "algebra": 0, "by_value": 0, "results": 0, "version": 0,
+    "svg": 0, "html_page": 0, "progress_line": 0,
     "formulas": 1, "engine": 2, "groups": 3, "model": 4, "formats": 5,
     "testing": 6, "analysis": 6.5, "solve": 7, "view": 8, "sweep": 8, "cli": 9,
 }  # fmt: skip

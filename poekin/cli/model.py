@@ -24,6 +24,7 @@ from ..formats.ros import packages
 from ..formats.vendors.calibration import FactoryCalibration
 from ..formats.xacro import is_xacro
 from ..formats.xacro import xacro as evaluate_xacro
+from ..model.chain import Chain
 from ..model.robot import Robot
 
 STDIN = ("-", "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0")
@@ -91,6 +92,12 @@ def model(file: str) -> Robot:
     `models`.
     """
     return models(file)[0]
+
+
+def model_and_chain(file: str, base: str | None, tip: str | None) -> tuple[Robot, Chain]:
+    """The model that a FILE argument names, and its chain from --base to --tip."""
+    robot = model(file)
+    return robot, robot.chain(base=base, tip=tip)
 
 
 def models(*files: str) -> list[Robot]:

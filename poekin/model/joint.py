@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from ..by_value import ByValue
 from ..errors import InputError, ModelError, quote, safe_repr
 from . import screw
 from .checks import LONGEST, one_pose, read_only
@@ -101,8 +102,8 @@ class SafetyController:
             _set(self, field.name, _number(getattr(self, field.name), what))
 
 
-@dataclass(frozen=True, slots=True)
-class Joint:
+@dataclass(frozen=True, slots=True, eq=False)
+class Joint(ByValue):
     """Joint of two links: T_pc(x) = origin e^{S x}, S the screw in the joint's own frame.
 
     T_pc is the pose of the child link in the parent link's frame.
@@ -225,24 +226,6 @@ class Joint:
         if self.kind == "prismatic":
             return (0.0, 0.0, 0.0, x, y, z)
         return (0.0,) * 6
-
-    def _values(self) -> list[Any]:
-        return [getattr(self, field.name) for field in fields(self)]
-
-    def _data(self) -> tuple[Any, ...]:
-        """Its fields, the origin as bytes, which can be compared and hashed."""
-        return tuple(x.tobytes() if isinstance(x, np.ndarray) else x for x in self._values())
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Joint):
-            return NotImplemented
-        return self._data() == other._data()
-
-    def __hash__(self) -> int:
-        return hash(self._data())
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), tuple(self._values())
 
     def __repr__(self) -> str:
         follows = f", mimic={quote(self.mimic.joint)}" if self.mimic else ""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..by_value import ByValue
 from ..engine.straight_line.program import Program
 from ..errors import InputError, ModelError, UnknownName, quote, safe_repr, suggest
 from .chain import Chain
@@ -25,8 +26,8 @@ from .tree.link_program import link_program
 from .tree.robot_parts import RobotParts, make_parts
 
 
-@dataclass(frozen=True, slots=True)
-class Robot:
+@dataclass(frozen=True, slots=True, eq=False)
+class Robot(ByValue):
     """Links joined into a tree: a joint's child link is at T_pc(x) = origin e^{S x} in its parent.
 
     Parameters
@@ -336,14 +337,6 @@ class Robot:
 
     def _data(self) -> tuple[Any, ...]:
         return self.name, self.links, self.joints, self.coupling
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Robot):
-            return NotImplemented
-        return self._data() == other._data()
-
-    def __hash__(self) -> int:
-        return hash(self._data())
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Not __getstate__: Python 3.11.2 puts one of its own over that of a frozen dataclass with

@@ -152,10 +152,10 @@ class Cells:
         p : (nx, ny, nz, 3) ndarray
             Points in the base frame, m.
         """
-        axes = []
-        for start, count in zip(self.corner, self.shape, strict=True):
-            middles = np.arange(count, dtype=float) + 0.5
-            axes.append(start + self.resolution * middles)
+        axes = [
+            start + self.resolution * (np.arange(count, dtype=float) + 0.5)
+            for start, count in zip(self.corner, self.shape, strict=True)
+        ]
         grids = np.meshgrid(*axes, indexing="ij")
         return np.stack(grids, axis=-1)
 

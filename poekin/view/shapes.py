@@ -215,20 +215,12 @@ def sphere(radius: float = 1.0, sides: int = 32) -> Surface:
     """Sphere about the origin, its vertices on it; half as many rings as sides."""
     count = sides // 2 + 1
     turn = np.linspace(0, np.pi, count)
-    profile = _half_circle(radius, turn)
-    return revolved(profile.radii, profile.heights, sides)
+    return revolved(*_half_circle(radius, turn), sides)
 
 
-class _Profile(NamedTuple):
-    """Distances from z and heights of a profile's corners, as `revolved` takes them."""
-
-    radii: Array
-    heights: Array
-
-
-def _half_circle(radius: float, turn: Array) -> _Profile:
-    """Profile of a sphere at angles from 0 to π from below."""
-    return _Profile(radius * np.sin(turn[1:-1]), -radius * np.cos(turn))
+def _half_circle(radius: float, turn: Array) -> tuple[Array, Array]:
+    """Profile of a sphere at angles from 0 to π from below, as `revolved` takes it."""
+    return radius * np.sin(turn[1:-1]), -radius * np.cos(turn)
 
 
 def capsule(start: ArrayLike, end: ArrayLike, radius: float, sides: int = SIDES) -> Surface:
@@ -242,9 +234,9 @@ def capsule(start: ArrayLike, end: ArrayLike, radius: float, sides: int = SIDES)
     right = 0.5 * np.pi
     quarter = np.linspace(0, right, sides // 4 + 1)
     turn = np.concatenate([quarter, right + quarter])  # the equator twice, at both ends
-    profile = _half_circle(radius, turn)
+    radii, heights = _half_circle(radius, turn)
     apart = np.repeat([0.0, length], len(quarter))
-    surface = revolved(profile.radii, profile.heights + apart, sides)
+    surface = revolved(radii, heights + apart, sides)
     return surface.placed(start, way / length)
 
 

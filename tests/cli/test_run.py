@@ -99,7 +99,7 @@ def test_memory_that_runs_out_is_one_message(monkeypatch, refused, crane):
     def out_of_memory(*_):
         raise MemoryError
 
-    monkeypatch.setattr(arm, "model", out_of_memory)
+    monkeypatch.setattr(arm, "model_and_chain", out_of_memory)
     assert "not enough memory" in refused("fk", crane, "0", "0", "--tip", "hook")
 
 

@@ -58,9 +58,7 @@ def live_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Coun
     graph = Graph()
     numbers = itertools.count(1)
     # Inputs from 0 on are of angles.
-    poses = []
-    for _ in chain.kinds:
-        poses.append(tuple(graph.input(-next(numbers)) for _ in IDENTITY))
+    poses = [tuple(graph.input(-next(numbers)) for _ in IDENTITY) for _ in chain.kinds]
     J, T = _run(algorithm, chain, poses, with_pose)
     return _count(graph, Angles(graph), T, J)
 

@@ -83,12 +83,8 @@ def command(
 
 def _changes(robot: Robot, calibrated: Robot) -> list[Change]:
     """Changes of the robot's joints, those that moved."""
-    found = []
-    for before, after in zip(robot.joints, calibrated.joints, strict=False):
-        change = _change(before, after)
-        if max(change.shift, change.turn) > MOVED:
-            found.append(change)
-    return found
+    changes = map(_change, robot.joints, calibrated.joints)
+    return [change for change in changes if max(change.shift, change.turn) > MOVED]
 
 
 def _change(before: Joint, after: Joint) -> Change:

@@ -27,7 +27,7 @@ from ...view.view import view
 from ..array_files import check_apart, check_place
 from ..formats import draw as pages
 from ..kinematics.arm import Base, File, Json, Tip
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, complain, name, say
 from . import exact as exact_pairs
 from . import measured
@@ -207,8 +207,7 @@ def command(
         [*outputs.paths, report, draw], model=file, measurements=files, separations=separations
     )
     choice(convention, CONVENTIONS, "convention")
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     said = MeasurementOptions(
         kind or (),
         point or (),

@@ -23,7 +23,7 @@ from ...solve.calibration.measurements.measurement import Measurement
 from .. import array_files
 from ..formats.units import SaidUnits
 from ..kinematics.arm import Base, File, Json, Tip
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, complain, heading, path_text, say
 from . import measured as measured_files
 from .calibrate import (
@@ -105,8 +105,7 @@ def command(
     array_files.check_apart([output], model=file, candidates=given, measurements=measured)
     convention = convention_of(format, mm, deg, unit, rename)
     units = SaidUnits(convention.mm, convention.deg)
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     said = MeasurementOptions(
         [kind] if kind else (),
         point or (),

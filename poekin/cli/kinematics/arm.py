@@ -18,7 +18,7 @@ from ...model.robot import Robot
 from ...progress_line import ProgressLine
 from .. import array_files
 from ..formats.units import SI, SaidUnits, beyond_limits
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, complain, heading, matrix, name, number, path_text, say
 from . import poses
 
@@ -94,8 +94,7 @@ def take(
     if len(words) == 1:  # commas of more words could be decimal ones
         words = poses.words_of(words[0])
     values = poses.numbers(words, "coordinate")
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     if given is None:
         poses.check_count(values, chain, remedy="; or --input with a file" * many)
         arm = ChainArguments(robot.name, chain, values[None], True, model=robot)

@@ -21,7 +21,7 @@ from ...view.view import view
 from .. import array_files
 from ..formats import draw as pages
 from ..formats.units import Deg, Mm, SaidUnits
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, complain, heading, path_text, say
 from . import fastest_files, poses
 from .arm import Base, File, Json, Tip
@@ -128,8 +128,7 @@ def command(
         )
     units = SaidUnits(mm, deg)
     T = poses.read(None, given, format, quaternion, units)
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     limit_v = poses.for_each(speed, chain, "--speed", units)
     limit_a = poses.for_each(acceleration, chain, "--acceleration", units)
     timed = not fastest

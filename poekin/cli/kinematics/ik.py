@@ -18,7 +18,7 @@ from ...view.view import view
 from .. import array_files
 from ..formats import draw as pages
 from ..formats.units import Deg, Mm, SaidUnits
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, complain, heading, name, path_text, say
 from . import poses
 from .arm import Base, File, Json, Tip, show_coordinates
@@ -69,8 +69,7 @@ def command(
     array_files.check_apart([output, draw], model=file, poses=given)
     units = SaidUnits(mm, deg)
     T = poses.read(words, given, format, quaternion, units)
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     start = poses.coordinates(q0, chain, "--q0", units)
     near = poses.coordinates(nearest_to, chain, "--nearest-to", units)
     with ProgressLine("solving") as progress:

@@ -9,7 +9,7 @@ import typer
 from ...analysis.counting.count_table import MEANING, CountTable, count_table
 from ...engine.count import Count
 from ..kinematics.arm import Base, File, Json, Tip
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, name, number, say, table
 
 Idealise = Annotated[
@@ -34,8 +34,7 @@ def command(
     """Multiplications, additions and sine/cosine pairs of one Jacobian, in every way there is to
     compute it.
     """
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     counts = count_table(chain, idealise=idealise)
     if json:
         print(as_json({"robot": robot.name} | counts.to_dict()))

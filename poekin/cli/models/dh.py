@@ -15,7 +15,7 @@ from ...formats.dh.table import PRODUCTS
 from ...model.chain import Chain
 from .. import array_files
 from ..kinematics.arm import Base, File, Json, Tip
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, matrix, name, number, path_text, say, table
 
 Convention = Annotated[
@@ -40,8 +40,7 @@ def command(
     table is.
     """
     array_files.check_apart([output], model=file)
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     result = dh.from_chain(chain, convention=cast(dh.Convention, convention))
     if output is not None:
         dh.write(result.table, output)

@@ -27,9 +27,7 @@ def command(file: File, tip: Tip = None, base: Base = None, json: Json = False) 
     """
     robot = model(file)
     if tip is None and base is None:
-        chains = []
-        for start, end, note in routes(robot):
-            chains.append((robot.chain(base=start, tip=end), note))
+        chains = [(robot.chain(base=start, tip=end), note) for start, end, note in routes(robot)]
         if json:
             print(as_json(_robot(robot, chains)))
         else:

@@ -10,7 +10,7 @@ from typer import Option
 from ...progress_line import ProgressLine
 from ...sweep.maps.histogram import histogram
 from ..kinematics.arm import Base, File, Json, Seed, Tip
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, number, say, table
 from .options import (
     Drawn,
@@ -55,8 +55,7 @@ def command(
     """Numbers of configurations, or poses, of FILE, drawn at random, by their measure. Exit code 0
     done, 2 error.
     """
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     mask = mask_from(robot, chain, self_collision)
     with executor(scheduler) as runs, ProgressLine("sweep") as progress:
         found = histogram(

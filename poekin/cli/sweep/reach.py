@@ -14,7 +14,7 @@ from ...sweep.maps import map_files
 from ...sweep.maps.reach import reach
 from .. import array_files
 from ..kinematics.arm import Base, File, Json, Seed, Tip
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, path_text, say
 from .options import (
     KeepName,
@@ -111,8 +111,7 @@ def command(
         raise InputError(
             "--resume: expected with --store and the directory of the run to go on with"
         )
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     mask = mask_from(robot, chain, self_collision)
     with executor(scheduler) as runs, ProgressLine("sweep") as progress:
         found = reach(

@@ -9,7 +9,7 @@ from typer import Option
 from ...progress_line import ProgressLine
 from ...sweep.maps.top import top
 from ..kinematics.arm import Base, File, Json, Seed, Tip
-from ..model import model
+from ..model import model_and_chain
 from ..output import as_json, name, number, say, table
 from .options import (
     Drawn,
@@ -52,8 +52,7 @@ def command(
     """Configurations, or poses, of FILE with the best measures of all that are drawn at random. Exit
     code 0 done, 2 error.
     """
-    robot = model(file)
-    chain = robot.chain(base=base, tip=tip)
+    robot, chain = model_and_chain(file, base, tip)
     mask = mask_from(robot, chain, self_collision)
     with executor(scheduler) as runs, ProgressLine("sweep") as progress:
         found = top(

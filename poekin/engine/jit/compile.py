@@ -130,26 +130,21 @@ def array_type(code: str):
     return types.Array(element, dimensions, "A", readonly=True, aligned=False)
 
 
-def compiled(
-    function,
-    arguments: str,
-    returns: str,
-    quick: bool,
-    bare: bool,
-    portable: bool,
-):
-    """Machine code of `function` for one signature, from the cache or compiled now; see
-    `engine.jit.kernel.Kernel`. Raises: FileError in a working directory that was deleted.
+def compiled(kernel):
+    """Machine code of an `engine.jit.kernel.Kernel` for its one signature, from the cache or compiled now.
+
+    Raises: FileError in a working directory that was deleted.
     """
+    function = kernel.function
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
     for module in modules_used(sys.modules[function.__module__]):
         _register_functions(module)
-    options: dict = OPTIONS | {"fastmath": False} if portable else OPTIONS
-    dispatcher = numba.njit(nogil=not (quick or bare), **options)(function)
+    options: dict = OPTIONS | {"fastmath": False} if kernel.portable else OPTIONS
+    dispatcher = numba.njit(nogil=not (kernel.quick or kernel.bare), **options)(function)
     dispatcher._cache = KernelCache(function.__name__)  # type: ignore[attr-defined]
-    result = types.int64 if returns == "int" else types.void
-    signature = result(*(array_type(code) for code in arguments.split()))
+    result = types.int64 if kernel.returns == "int" else types.void
+    signature = result(*(array_type(code) for code in kernel.arguments.split()))
     try:
         dispatcher.compile(signature)
     except FileNotFoundError as fault:
@@ -161,7 +156,7 @@ def compiled(
         ) from fault
     dispatcher.disable_compile()
     # the entry point unpacks its arguments without asking of what type they are
-    if bare:
+    if kernel.bare:
         return dispatcher.overloads[signature.args].entry_point
     return dispatcher
 

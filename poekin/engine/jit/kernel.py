@@ -5,11 +5,14 @@ cache.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
 
 from . import source_hash  # noqa: F401  takes the key of the source as it is now
 from .locks import COMPILING
 
 
+@dataclass(eq=False, repr=False, slots=True)
 class Kernel:
     """Call `kernel.call(...)`: the first time this loads or compiles the function and puts the
     result in its place.
@@ -20,24 +23,16 @@ class Kernel:
     no product and sum are fused: it gives the same bits on every processor.
     """
 
-    __slots__ = ("arguments", "bare", "call", "function", "portable", "quick", "returns")
+    function: Callable
+    arguments: str
+    returns: str = ""
+    quick: bool = False
+    bare: bool = False
+    portable: bool = False
+    call: Callable = field(init=False)
 
-    def __init__(
-        self,
-        function: Callable,
-        arguments: str,
-        returns: str,
-        quick: bool,
-        bare: bool,
-        portable: bool,
-    ):
-        self.function = function
-        self.arguments = arguments
-        self.returns = returns
-        self.quick = quick
-        self.bare = bare
-        self.portable = portable
-        self.call: Callable = self._first_call
+    def __post_init__(self) -> None:
+        self.call = self._first_call
 
     def ready(self) -> Callable:
         """The compiled function itself."""
@@ -47,28 +42,15 @@ class Kernel:
             if self.call == self._first_call:  # and no other thread was quicker
                 from .compile import compiled
 
-                self.call = compiled(
-                    self.function,
-                    self.arguments,
-                    self.returns,
-                    self.quick,
-                    self.bare,
-                    self.portable,
-                )
+                self.call = compiled(self)
         return self.call
 
     def _first_call(self, *arguments):
         return self.ready()(*arguments)
 
 
-def kernel(
-    arguments: str,
-    returns: str = "",
-    quick: bool = False,
-    bare: bool = False,
-    portable: bool = False,
-):
+def kernel(*said: Any, **named: Any):
     """Decorator: make a function of arrays a `Kernel`; for the argument codes see
     `engine.jit.compile.array_type`.
     """
-    return lambda function: Kernel(function, arguments, returns, quick, bare, portable)
+    return lambda function: Kernel(function, *said, **named)

@@ -243,17 +243,13 @@ def _many(arm, q, T, J):
 
 
 @kernel("int w2 w3")
-def pose_many(arm, q, T):
-    """f(q) of many configurations."""
-    T = without_refcount(T)
-    _many(arm, without_refcount(q), T, T)
+def pose_many(arm, q, result):
+    """f(q), or the Jacobian, of many configurations: what the arm's code is of."""
+    result = without_refcount(result)
+    _many(arm, without_refcount(q), result, result)
 
 
-@kernel("int w2 w3")
-def jacobian_many(arm, q, J):
-    """The Jacobian of many configurations."""
-    J = without_refcount(J)
-    _many(arm, without_refcount(q), J, J)
+jacobian_many = pose_many
 
 
 @kernel("int w2 w3 w3")

@@ -23,9 +23,6 @@ _VECTOR = ir.VectorType(ir.DoubleType(), _COUNT)
 class Lanes(types.Type):
     """Four numbers; a number is taken four times where it meets them."""
 
-    def __init__(self):
-        super().__init__(name="Lanes")
-
     def unify(self, typingctx, other):
         """The type that a variable has which is either."""
         if isinstance(other, types.Float):
@@ -42,20 +39,14 @@ class Lanes(types.Type):
 class LaneRows(types.Type):
     """Rows of four numbers, each row a scalar."""
 
-    def __init__(self):
-        super().__init__(name="LaneRows")
-
 
 class LaneTable(types.Type):
     """Rows of such rows, each as long as the others."""
 
-    def __init__(self):
-        super().__init__(name="LaneTable")
 
-
-_LANES = Lanes()
-_ROWS = LaneRows()
-_TABLE = LaneTable()
+_LANES = Lanes("Lanes")
+_ROWS = LaneRows("LaneRows")
+_TABLE = LaneTable("LaneTable")
 
 
 @register_model(Lanes)
@@ -133,14 +124,19 @@ for _function, _name in (
     _register_binary(_function, _name)
 
 
+def _call(builder, name, vectors):
+    """A function of LLVM's own, of each lane."""
+    kind = ir.FunctionType(_VECTOR, [_VECTOR] * len(vectors))
+    whole = f"llvm.{name}.v{_COUNT}f64"
+    used = cgutils.get_or_insert_function(builder.module, kind, whole)
+    return builder.call(used, vectors)
+
+
 def _register_unary(function, name):
     @intrinsic
     def of_vectors(typingctx, a):
         def generate(context, builder, signature, arguments):
-            kind = ir.FunctionType(_VECTOR, [_VECTOR])
-            whole = f"llvm.{name}.v{_COUNT}f64"
-            used = cgutils.get_or_insert_function(builder.module, kind, whole)
-            return builder.call(used, arguments)
+            return _call(builder, name, arguments)
 
         return _LANES(a), generate
 
@@ -159,9 +155,7 @@ _register_unary(math.sqrt, "sqrt")
 def _with_sign(typingctx, a, b):
     def generate(context, builder, signature, arguments):
         vectors = _vectors(context, builder, signature, arguments)
-        kind = ir.FunctionType(_VECTOR, [_VECTOR, _VECTOR])
-        used = cgutils.get_or_insert_function(builder.module, kind, f"llvm.copysign.v{_COUNT}f64")
-        return builder.call(used, vectors)
+        return _call(builder, "copysign", vectors)
 
     return _LANES(a, b), generate
 

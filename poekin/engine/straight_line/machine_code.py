@@ -22,6 +22,7 @@ it: it gives the same bits on every processor.
 # (llvmlite's builder wraps its methods, and their signatures are lost on the way)
 from __future__ import annotations
 
+from functools import reduce
 from typing import Any, Literal
 
 from llvmlite import binding, ir
@@ -143,10 +144,7 @@ class _Function:
                 parts.append(x)
             if angle.offset:
                 parts.append(self._constant(angle.offset))
-            total = parts[0]
-            for part in parts[1:]:
-                total = build.fadd(total, part)
-            values.append(total)
+            values.append(reduce(build.fadd, parts))
         for j, value in enumerate(values):
             build.store(value, self._row(sines, stride, j), align=8)
         build.ret_void()

@@ -9,6 +9,7 @@ output needs is left out when the graph is read.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 FOLD_TOLERANCE = 2.0**-52
@@ -122,15 +123,13 @@ class Graph:
         return Traced(self, number, sign)
 
 
+@dataclass(eq=False, slots=True)
 class Traced:
     """A number known at run time only: a node of a graph, and a sign."""
 
-    __slots__ = ("graph", "number", "sign")
-
-    def __init__(self, graph: Graph, number: int, sign: int):
-        self.graph = graph
-        self.number = number
-        self.sign = sign
+    graph: Graph
+    number: int
+    sign: int
 
     def __mul__(self, other):
         if isinstance(other, Traced):

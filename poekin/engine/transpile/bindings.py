@@ -15,6 +15,10 @@ class BindingWriter(CallWriter):
     known yet, and `top` those that are declared at its beginning.
     """
 
+    # of one run over the function, as the other ones
+    top: dict[str, CType]
+    declared: set[str]
+
     def __init__(
         self, source: FunctionSource, units: InstanceSource, arguments: list[Argument]
     ) -> None:
@@ -22,8 +26,6 @@ class BindingWriter(CallWriter):
         self.arguments = dict(zip(source.parameters, arguments, strict=True))
         self.live: set[str] | None = None
         self.blocks: Blocks = ()
-        self.top: dict[str, CType] = {}
-        self.declared: set[str] = set()
 
     def assign(self, node: ast.Assign) -> None:
         """target = value."""

@@ -77,10 +77,7 @@ def unify(a: CType, b: CType) -> CType | None:
     if isinstance(a, CScalar) and isinstance(b, CScalar):
         return DOUBLE if DOUBLE in (a, b) else INT
     if isinstance(a, CTuple) and isinstance(b, CTuple) and len(a.items) == len(b.items):
-        items = [unify(x, y) for x, y in zip(a.items, b.items, strict=True)]
-        found = tuple(item for item in items if item is not None)
-        if len(found) == len(items):
-            return CTuple(found)
+        return _tuple_of([unify(x, y) for x, y in zip(a.items, b.items, strict=True)])
     return None
 
 
@@ -95,11 +92,14 @@ def type_of_constant(value: object) -> CType | None:
     if type(value) is np.uint64:
         return WORD
     if isinstance(value, tuple) and value:
-        items = [type_of_constant(item) for item in value]
-        found = tuple(item for item in items if item is not None)
-        if len(found) == len(items):
-            return CTuple(found)
+        return _tuple_of([type_of_constant(item) for item in value])
     return None
+
+
+def _tuple_of(items: list[CType | None]) -> CTuple | None:
+    """The tuple of items of these types; None where one has no type."""
+    found = tuple(item for item in items if item is not None)
+    return CTuple(found) if len(found) == len(items) else None
 
 
 class Structures:

@@ -137,7 +137,7 @@ class CallWriter(ExpressionWriter):
         result = self.held(CValue(instance.returns, text))
         return None, self.in_parts(result, instance.told)
 
-    def global_constant(self, name: str, value: Any, kind: CType) -> CValue:
+    def global_constant(self, name: str, value: Any) -> CValue:
         """A tuple of numbers of a module by its name in C."""
         tree = self.source.tree
         made = self.make_tuple([self.constant(tree, item, "") for item in value])
@@ -207,10 +207,6 @@ def _integer(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue
     return CValue(INT, f"(int){value.within(UNARY)}", UNARY)
 
 
-def _float(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
-    return writer.converted(node, values[0], DOUBLE)
-
-
 def _word(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
     value = values[0]
     if value.type not in (INT, WORD):
@@ -218,15 +214,6 @@ def _word(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
     if value.known:
         return scalar(value.constant, WORD, value.fixed)
     return CValue(WORD, f"(unsigned long long){value.within(UNARY)}", UNARY)
-
-
-def _below(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
-    a, b = map(as_double, values)
-    return binary("<", a, b, BOOL, LESS)
-
-
-def _true(writer: CallWriter, node: ast.Call, values: list[CValue]) -> CValue:
-    return scalar(True, BOOL)
 
 
 _OfPython = Callable[[CallWriter, ast.Call, list[CValue]], CValue]
@@ -237,8 +224,10 @@ _OF_PYTHON: dict[Any, _OfPython] = {
     int: _integer,
     np.int64: _integer,
     np.uint64: _word,
-    float: _float,
+    float: lambda writer, node, values: writer.converted(node, values[0], DOUBLE),
     # as the engine compiles them for doubles
-    elementary.below: _below,
-    elementary.takes_series: _true,
+    elementary.below: lambda _, __, values: binary(
+        "<", *map(as_double, values), kind=BOOL, binds=LESS
+    ),
+    elementary.takes_series: lambda *_: scalar(True, BOOL),
 }

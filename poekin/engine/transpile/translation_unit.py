@@ -175,11 +175,11 @@ def _add(instance: Instance, ordered: dict[Instance, None]) -> None:
 
 def _used_in(text: str, definitions: dict[str, str]) -> list[str]:
     """The definitions whose names stand in a text."""
-    found = []
-    for name, definition in definitions.items():
-        if any(f"{name}{end}" in text for end in " ()[],.;"):
-            found.append(definition)
-    return found
+    return [
+        definition
+        for name, definition in definitions.items()
+        if any(f"{name}{end}" in text for end in " ()[],.;")
+    ]
 
 
 def _plain(text: str) -> str:

@@ -61,21 +61,23 @@ class Mark(NamedTuple):
 class Writer:
     """Expressions of one function for arguments of given types."""
 
+    # of one run over the function, which makes them anew
+    known: dict[str, CValue]
+    told: dict[str, tuple[CValue | None, ...]]
+    read: set[str]
+    called: dict[Instance, None]
+    results: list[CValue]
+    lines: list[str]
+    temporaries: int
+
     def __init__(self, source: FunctionSource, structures: Structures) -> None:
         self.source = source
         self.structures = structures
         self.types: dict[str, CType] = {}
-        self.known: dict[str, CValue] = {}
         self.roots: dict[str, str] = {}
-        self.told: dict[str, tuple[CValue | None, ...]] = {}
-        self.read: set[str] = set()
-        self.called: dict[Instance, None] = {}
-        self.results: list[CValue] = []
-        self.lines: list[str] = []
         self.indent = 1
-        self.temporaries = 0
 
-    def global_constant(self, name: str, value: Any, kind: CType) -> CValue:
+    def global_constant(self, name: str, value: Any) -> CValue:
         """A constant of a module that is no number; see `translation_unit`."""
         raise NotImplementedError
 
@@ -200,7 +202,7 @@ class Writer:
         if isinstance(kind, CScalar):
             return scalar(plain, kind, fixed)
         if name and not fixed:
-            return self.global_constant(name, plain, kind)
+            return self.global_constant(name, plain)
         items = [self.constant(node, item, "", fixed) for item in plain]
         return self.make_tuple(items)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, field
 from typing import Literal
 
 from ...errors import ModelError, quote
@@ -11,6 +12,7 @@ from .numbers import real
 from .xml import Element
 
 
+@dataclass(eq=False, slots=True)
 class Fields:
     """One element of a file: its attributes, children and numbers.
 
@@ -20,18 +22,10 @@ class Fields:
     expected and what arrived.
     """
 
-    __slots__ = ("_children", "element", "inside", "source")
-
-    def __init__(
-        self,
-        element: Element,
-        source: Source,
-        inside: Fields | None = None,
-    ) -> None:
-        self.element = element
-        self.source = source
-        self.inside = inside
-        self._children: dict[str, list[Element]] = {}
+    element: Element
+    source: Source
+    inside: Fields | None = None
+    _children: dict[str, list[Element]] = field(default_factory=dict, init=False)
 
     @property
     def line(self) -> int:

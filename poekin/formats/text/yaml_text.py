@@ -8,6 +8,7 @@ whole, tags, anchors, aliases, lists and a second document are refused.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -79,12 +80,12 @@ def find(text: str, place: str, names: tuple[str, ...]) -> TextNode | None:
     return None
 
 
+@dataclass(eq=False)
 class _Level:
     """An open mapping or list, and the key of a mapping whose value comes next."""
 
-    def __init__(self, in_mapping: bool) -> None:
-        self.in_mapping = in_mapping
-        self.key: str | None = None
+    in_mapping: bool
+    key: str | None = None
 
     def take(self, value: str) -> None:
         """Take a key, or the value of the key that was taken."""
@@ -121,15 +122,15 @@ def _events(text: str, place: str, yaml: ModuleType) -> Iterator[Any]:
         yield event
 
 
+@dataclass(eq=False)
 class _Builder:
     """Mappings built out of the parser's events, one after the other."""
 
-    def __init__(self, place: str, yaml: ModuleType) -> None:
-        self.place = place
-        self.yaml = yaml
-        self.root: MappingNode | None = None
-        self.open: list[MappingNode] = []
-        self.key: TextNode | None = None  # of the innermost open mapping, until its value is read
+    place: str
+    yaml: ModuleType
+    root: MappingNode | None = None
+    open: list[MappingNode] = field(default_factory=list)
+    key: TextNode | None = None  # of the innermost open mapping, until its value is read
 
     def take(self, event: Any) -> None:
         """Build what an event adds, or refuse it."""

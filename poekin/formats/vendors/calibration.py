@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...by_value import ByValue
 from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
 from ...groups.vectors import norms
@@ -19,7 +19,7 @@ from .naming import UR, Naming
 
 
 @dataclass(frozen=True, eq=False)
-class FactoryCalibration:
+class FactoryCalibration(ByValue):
     """Factory calibration of an arm: f(q) = P_1 R_1(q_1) ... P_n R_n(q_n) F, R_i about axis i.
 
     f is the pose of the flange in the vendor's base frame, by the names of the vendor's robot
@@ -157,27 +157,6 @@ class FactoryCalibration:
         Accuracy: rounding of the product of the poses, 1e-15 reach.
         """
         return self.to_robot().chain()
-
-    def _data(self) -> tuple[Any, ...]:
-        arrays = (self.poses, self.axes, self.flange)
-        return *(a.tobytes() for a in arrays), self.hash, self.naming
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, FactoryCalibration):
-            return NotImplemented
-        return self._data() == other._data()
-
-    def __hash__(self) -> int:
-        return hash(self._data())
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (
-            self.poses,
-            self.hash,
-            self.naming,
-            self.axes,
-            self.flange,
-        )
 
 
 _NAMES = {"Universal Robots": "ur", "UFACTORY": "ufactory", "Flexiv": "flexiv"}

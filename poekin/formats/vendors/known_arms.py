@@ -82,9 +82,10 @@ def _universal_robots() -> tuple[KnownArm, ...]:
 def _others() -> tuple[KnownArm, ...]:
     data = pkgutil.get_data(__name__, "known_arms.toml") or b""
     tables = tomllib.loads(data.decode("utf-8"))
-    arms = []
-    for name, rows in tables["UFACTORY"].items():
-        arms.append(_known(name, FactoryCalibration(_poses(rows), naming=ufactory(len(rows)))))
+    arms = [
+        _known(name, FactoryCalibration(_poses(rows), naming=ufactory(len(rows))))
+        for name, rows in tables["UFACTORY"].items()
+    ]
     for name, rows in tables["Flexiv"].items():
         axes = np.tile(Z, (len(rows), 1))
         if name.startswith("Rizon"):

@@ -107,13 +107,6 @@ _D_CHAINS, _D_DERIVATIVE_CHAINS = (
 )
 
 
-def a_of(t):
-    """A = sin t / t."""
-    if t != 0:
-        return elementary.sin(t) / t
-    return t + 1.0
-
-
 def b_near(tt):
     """B from t^2 < 1."""
     return polynomial(B_NEAR, tt)

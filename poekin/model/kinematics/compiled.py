@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...by_value import ByValue
 from ...checks import REQUIRED, true_or_false
 from ...engine.jit import threads
 from ...engine.jit.kernel import Kernel
@@ -32,7 +33,7 @@ _RESULTS = {(True, False): "pose", (False, True): "jacobian", (True, True): "pos
 _NOT_PLAIN = (AttributeError, KeyError, TypeError, ValueError)
 
 
-class CompiledChain(ChainPrograms[AnyChain]):
+class CompiledChain(ByValue, ChainPrograms[AnyChain]):
     """Kinematics of one arm, as `Chain` has them, by code that was made for its numbers.
 
     `fk`, `jacobian` and `fk_jacobian` take and return what those of the chain do. What is 0, ±1 or
@@ -313,16 +314,8 @@ class CompiledChain(ChainPrograms[AnyChain]):
         if J is not None:
             J[...] = values.reshape(J.shape)
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, CompiledChain):
-            return NotImplemented
-        return self.chain == other.chain and self.parallel == other.parallel
-
-    def __hash__(self) -> int:
-        return hash((self.chain, self.parallel))
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return CompiledChain, (self.chain, self.parallel)
+    def _values(self) -> list[Any]:
+        return [self.chain, self.parallel]
 
     def __repr__(self) -> str:
         return f"<CompiledChain of {self.chain!r}{', parallel' * self.parallel}>"

@@ -21,12 +21,11 @@ class EliminatedRows(NamedTuple):
 
     Attributes: branches (N, 16, 7), coordinates q, rad, NaN in rows that hold none, and a margin,
     the slope of the polynomial at the root as a share of the largest, 0 at a double root and -1
-    without a root; count (N,); sure (N,), whether the number of roots is beyond doubt to rounding:
+    without a root; sure (N,), whether the number of roots is beyond doubt to rounding:
     all of them are solutions, simple, and even in number.
     """
 
     branches: Array
-    count: np.ndarray
     sure: np.ndarray
 
     @property
@@ -120,7 +119,6 @@ def _join(found: EliminatedRows, which: np.ndarray, other: EliminatedRows, own: 
         q[added, free[added]] = others[added, row]
         margin[added, free[added]] = margins[added, row]
     found.branches[which] = branches
-    found.count[which] = (margin >= 0.0).sum(axis=1)
 
 
 def elimination(chain: Chain) -> Elimination | None:
@@ -205,8 +203,4 @@ def _rows(table: Array, T: Array) -> EliminatedRows:
     counts = np.empty((N, 2))
     targets = np.ascontiguousarray(T)
     elimination_kernels.eliminated.call(table, targets, rows, counts)
-    return EliminatedRows(
-        rows,
-        counts[:, 0].astype(int),
-        counts[:, 1] == 0.0,
-    )
+    return EliminatedRows(rows, counts[:, 1] == 0.0)

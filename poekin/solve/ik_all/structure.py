@@ -112,11 +112,8 @@ def _misfits_at(chain: ChainData, first: int) -> Iterator[Misfit]:
 def _singular(misfit: Misfit, every: list[Misfit], reach: float) -> bool:
     """Whether four axes meet in one point or are parallel: the arm is singular at every q."""
     family = misfit.family
-    four = []
-    for other in every:
-        beside = abs(other.family.first - family.first) <= 1
-        if beside and other.family.kind == family.kind:
-            four.append(other)
+    alike = (other for other in every if other.family.kind == family.kind)
+    four = (other for other in alike if abs(other.family.first - family.first) <= 1)
     close = [_miss(other, reach) <= _SINGULAR for other in four]
     return _miss(misfit, reach) <= _SINGULAR and sum(close) > 1
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import NamedTuple
 
 _SECONDS = 0.4  # of a task: Dask takes some milliseconds for each
@@ -18,17 +19,17 @@ class Range(NamedTuple):
     last: int
 
 
+@dataclass(eq=False)
 class Ranges:
     """Ranges of `count` samples: single chunks, until it is known how long one takes.
 
     most: number of ranges that are run at a time, two for each worker.
     """
 
-    def __init__(self, count: int, chunk: int, most: int) -> None:
-        self.count = count
-        self.chunk = chunk
-        self.most = most
-        self.chunks = 1
+    count: int
+    chunk: int
+    most: int
+    chunks: int = 1
 
     def __iter__(self) -> Iterator[Range]:
         first = 0

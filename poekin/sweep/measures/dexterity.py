@@ -20,16 +20,25 @@ if TYPE_CHECKING:
 _FULL = 6  # coordinates from which on det(J Jᵀ) is the same in every frame
 
 
+class _OfJacobian(Measure):
+    """Measure that is 0 everywhere where an arm's rank is not full."""
+
+    def check(self, chain: Chain) -> None:
+        """Refuses an arm whose measure is 0 everywhere. Raises: InputError."""
+        most = min(chain.dof, _FULL)
+        if generic_rank(chain, "pose") < most:
+            raise InputError(
+                f"sweep: measure {self.name!r}: the tool of {chain!r} moves in fewer than {most} ways at a time, "
+                "so that it is 0 everywhere"
+            )
+
+
 @dataclass(frozen=True)
-class PoseManipulability(Measure):
+class PoseManipulability(_OfJacobian):
     """Yoshikawa's manipulability of the pose, sqrt(det J Jᵀ), in SI units."""
 
     called = "manipulability"
     kind = 1
-
-    def check(self, chain: Chain) -> None:
-        """Refuses an arm whose measure is 0 everywhere. Raises: InputError."""
-        _check_rank(self.name, chain)
 
     def program(self, chain: Chain) -> Program:
         """Pose and determinant."""
@@ -43,17 +52,13 @@ class PoseManipulability(Measure):
 
 
 @dataclass(frozen=True)
-class _SingularValues(Measure):
+class _SingularValues(_OfJacobian):
     """Measure of the singular values of the hybrid Jacobian."""
 
     length: float = 1.0
 
     def __post_init__(self) -> None:
         positive(self.length, "length")
-
-    def check(self, chain: Chain) -> None:
-        """Refuses an arm whose measure is 0 everywhere. Raises: InputError."""
-        _check_rank(self.name, chain)
 
     def program(self, chain: Chain) -> Program:
         """Pose and Jacobian."""
@@ -132,12 +137,3 @@ class SmallestSingularValue(_SingularValues):
 
     called = "smallest_singular_value"
     kind = 2
-
-
-def _check_rank(name: str, chain: Chain) -> None:
-    most = min(chain.dof, _FULL)
-    if generic_rank(chain, "pose") < most:
-        raise InputError(
-            f"sweep: measure {name!r}: the tool of {chain!r} moves in fewer than {most} ways at a time, "
-            "so that it is 0 everywhere"
-        )

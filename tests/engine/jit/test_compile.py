@@ -170,9 +170,7 @@ def test_in_a_directory_that_was_deleted_compiling_is_refused_with_what_helps(
     here.rmdir()
     known = group_kernels.first_defect
     with pytest.raises(FileError) as caught:
-        compiled(
-            known.function, known.arguments, known.returns, known.quick, known.bare, known.portable
-        )
+        compiled(known)
     assert str(caught.value) == (
         "compiling kernels: the working directory is gone; change to another one, or run "
         "`poekin warm` elsewhere once, after which no kernel is compiled"
@@ -188,6 +186,4 @@ def test_another_file_that_is_missing_as_kernels_are_compiled_is_said_as_it_is(m
     monkeypatch.setattr(compile_module.KernelCache, "load_overload", missing)
     known = group_kernels.first_defect
     with pytest.raises(FileNotFoundError, match=r"^a source$"):
-        compiled(
-            known.function, known.arguments, known.returns, known.quick, known.bare, known.portable
-        )
+        compiled(known)

@@ -17,7 +17,7 @@ def rows(*solutions: tuple[float, float]) -> EliminatedRows:
     branches[:, :, -1] = -1.0
     for k, (angle, margin) in enumerate(solutions):
         branches[0, k, :-1], branches[0, k, -1] = angle, margin
-    return EliminatedRows(branches, np.array([len(solutions)]), np.zeros(1, bool))
+    return EliminatedRows(branches, np.zeros(1, bool))
 
 
 def test_what_another_table_finds_is_added_where_there_is_room():
@@ -25,7 +25,6 @@ def test_what_another_table_finds_is_added_where_there_is_room():
     _join(found, np.array([0]), rows((0.5, 0.2), (1.0, 0.0), (2.0, 0.4)), np.ones(1, bool))
     assert found.branches[0, :, 0].tolist() == [0.5, 1.0, 2.0]
     assert found.branches[0, :, -1].tolist() == [0.3, 0.0, 0.4]
-    assert found.count.tolist() == [3]
     full = rows((0.5, 0.3), (1.0, 0.1), (2.0, 0.0))
     _join(full, np.array([0]), rows((1.5, 0.2)), np.ones(1, bool))
     assert full.branches[0, :, 0].tolist() == [0.5, 1.0, 2.0]

@@ -16,19 +16,12 @@ from ....algebra import (
 )
 from ....formulas.ik.slides.position import across
 from ...jit.array_io import load_matrix
+from .closed_arm import vector
 
 UNIT = 0
 REVERSED = 1
 BEGIN = 2
 QUARTERS = 3
-
-
-def _vector(row, start):
-    return (
-        row[start],
-        row[start + 1],
-        row[start + 2],
-    )
 
 
 def nine(numbers):
@@ -49,9 +42,9 @@ def nine(numbers):
 def motion(arm, target):
     """G of e_1 ... e_6 = G in the arm's unit of length."""
     T = load_matrix(target)
-    tip = _vector(arm[6], 3)
+    tip = vector(arm[6], 3)
     for i in range(6):
-        tip = add(tip, _vector(arm[i], 3))
+        tip = add(tip, vector(arm[i], 3))
     home = make_pose(nine(arm[7]), tip)
     return compose(T, inverse(home))
 
@@ -74,8 +67,8 @@ def loop(arm, G, axes):
     is_reversed = how[REVERSED] != 0.0
     o = (0.0, 0.0, 0.0)
     for i in range(6):
-        o = add(o, _vector(arm[i], 3))
-        h = _vector(arm[i], 0)
+        o = add(o, vector(arm[i], 3))
+        h = vector(arm[i], 0)
         k = i
         if is_reversed:
             h = scale(-1.0, h)
@@ -104,12 +97,12 @@ def loop(arm, G, axes):
 
 
 def _direction(axes, k):
-    return _vector(axes[k], 0)
+    return vector(axes[k], 0)
 
 
 def point(axes, k):
     """A point of the k-th axis."""
-    return _vector(axes[k], 3)
+    return vector(axes[k], 3)
 
 
 def _store(row, h, o):

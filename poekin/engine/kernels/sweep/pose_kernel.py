@@ -28,7 +28,7 @@ from .measures import (
     measure_lanes,
 )
 from .self_collision import collides
-from .tiles import cell_of
+from .tiles import write_cells
 
 NO_SOLUTION = -1
 
@@ -128,13 +128,10 @@ def kept(
     counts in neither.
     """
     found = np.empty(len(T), np.int64)
-    for k in range(len(T)):
-        p = (T[k, 0, 3], T[k, 1, 3], T[k, 2, 3])
-        axis = (T[k, 0, 2], T[k, 1, 2], T[k, 2, 2])
-        if cells[0] >= 0:
-            found[k] = cell_of(cells, place, p, axis)
     if cells[0] < 0:
         write_bins(cells, place, values, found)
+    else:
+        write_cells(T, cells, place, found)
     unreached = leave_out(chosen < 0, begin, end, found, values)
     outside = keep(
         cells,

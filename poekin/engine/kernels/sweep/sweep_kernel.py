@@ -31,7 +31,7 @@ from .measures import (
 from .root import root
 from .samples import write_samples
 from .self_collision import collides
-from .tiles import cell_of
+from .tiles import cell_of, write_cells
 
 
 def _write_cells(cells, place, R_p, found):
@@ -146,7 +146,4 @@ def sampled(numbers, samples, bounds, q):
 @kernel("r3 i1 r1 n1", portable=True)
 def located(T, cells, place, found):
     """Cells of poses T (N, 4, 4)."""
-    for k in range(len(T)):
-        p = (T[k, 0, 3], T[k, 1, 3], T[k, 2, 3])
-        axis = (T[k, 0, 2], T[k, 1, 2], T[k, 2, 2])
-        found[k] = cell_of(cells, place, p, axis)
+    write_cells(T, cells, place, found)

@@ -26,6 +26,14 @@ def cell_of(cells, place, p, axis):
     return cube * (12 * side * side) + tile(axis[0], axis[1], axis[2], side)
 
 
+def write_cells(T, cells, place, found):
+    """The cells of poses T (N, 4, 4)."""
+    for k in range(len(T)):
+        p = (T[k, 0, 3], T[k, 1, 3], T[k, 2, 3])
+        axis = (T[k, 0, 2], T[k, 1, 2], T[k, 2, 2])
+        found[k] = cell_of(cells, place, p, axis)
+
+
 def tile(x, y, z, n):
     """The tile of a direction: 0 ... 12 n^2 - 1."""
     quarter = atan2(y, x) * (2.0 / math.pi)

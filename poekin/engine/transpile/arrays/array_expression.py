@@ -6,6 +6,7 @@ import ast
 import inspect
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
@@ -25,20 +26,15 @@ _CASTS: dict[Any, str] = {int: "int64", np.int64: "int64", np.uint64: "uint64"}
 _JOINED = {ast.And: ast.BitAnd, ast.Or: ast.BitOr}
 
 
+@dataclass(eq=False)
 class ArrayExpression(ast.NodeTransformer):
     """Expressions of one function; `names` are its local names in the text, `called` says the name of a
     function that it calls.
     """
 
-    def __init__(
-        self,
-        source: FunctionSource,
-        names: Mapping[str, str],
-        called: Callable[[Callable], str],
-    ) -> None:
-        self.source = source
-        self.names = names
-        self.called = called
+    source: FunctionSource
+    names: Mapping[str, str]
+    called: Callable[[Callable], str]
 
     def text(self, node: ast.expr) -> str:
         """An expression's text."""

@@ -204,9 +204,10 @@ def _warn_if_far(
     table: Table,
     nominal: Table,
 ) -> None:
-    moved = {}
-    for link, T in before.items():
-        moved[link] = norm(translation_part(after[link]) - translation_part(T))
+    moved = {
+        link: norm(translation_part(after[link]) - translation_part(T))
+        for link, T in before.items()
+    }
     worst = max(moved, key=lambda link: moved[link])
     if moved[worst] > FAR:
         warn(

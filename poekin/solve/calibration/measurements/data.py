@@ -203,9 +203,7 @@ def read_table(
     for k, convert in header.conversions:
         rows[:, k] = convert(rows[:, k])
     q, values, given = np.split(rows, [chain.dof, len(header.names)], axis=1)
-    found = {}
-    for column, x in zip(told, given.T, strict=True):
-        found[column.name] = column.factor * x
+    found = {column.name: column.factor * x for column, x in zip(told, given.T, strict=True)}
     return MeasurementTable(q, values, header.layout, sources, found)
 
 

@@ -151,15 +151,15 @@ def _header(
     measured = Columns(layout.columns, "column", of_values, said)
     found = list(csv_header.conversions(headings, joints, here).items())
     values = csv_header.conversions(headings, measured, here)
-    for k, convert in values.items():
-        found.append((chain.dof + k, convert))
+    found += [(chain.dof + k, convert) for k, convert in values.items()]
     # then to rad and m; poses are made of numbers in their own units
     taken = units if layout.pose is not None else units + of_values
     to_si = {"mm": "m", "deg": "rad"}
-    for k, unit in enumerate(taken):
-        if unit in to_si:
-            conversion = csv_header.CONVERSIONS[unit, to_si[unit]]
-            found.append((k, conversion))
+    found += [
+        (k, csv_header.CONVERSIONS[unit, to_si[unit]])
+        for k, unit in enumerate(taken)
+        if unit in to_si
+    ]
     every = (*names, *layout.columns)
     places = {heading.name: i for i, heading in enumerate(headings)}
     indices = [places[name] for name in every]

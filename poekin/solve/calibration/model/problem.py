@@ -142,11 +142,8 @@ class Problem:
 
     def frame_values(self, p: Array) -> dict[str, Array]:
         """The unknown frames (4, 4) and points (3,) at p, by name."""
-        values = {}
-        for frame, name in zip(self.initial_frames, self._parts, strict=True):
-            eta = p[self._parts[name]]
-            values[name] = _moved(frame, eta)
-        return values
+        frames = zip(self.initial_frames, self._parts.items(), strict=True)
+        return {name: _moved(frame, p[part]) for frame, (name, part) in frames}
 
     def frames_of_set(self, k: int, p: Array) -> list[Array]:
         """The unknown frames of set k at p."""

@@ -299,10 +299,11 @@ def _search(found: CalibrationData) -> Iterator[str]:
 def _parameters(found: CalibrationData) -> Iterator[str]:
     """All but tilts and shifts of axes, which depend on where base and tool are put."""
     heads = ("of", "what", "value", "standard deviation", "unit")
-    rows = []
-    for p, value, s in zip(found.parameters, found.values, found.deviations, strict=True):
-        if not p.what.startswith((TILT, SHIFT)):
-            rows.append((p.owner, p.what, f"{value:.6g}", f"{s:.2g}", p.unit))
+    rows = [
+        (p.owner, p.what, f"{value:.6g}", f"{s:.2g}", p.unit)
+        for p, value, s in zip(found.parameters, found.values, found.deviations, strict=True)
+        if not p.what.startswith((TILT, SHIFT))
+    ]
     table = _table(heads, rows, words=(0, 1, 4))
     yield html_page.details(f"{len(rows)} parameters", table)
 

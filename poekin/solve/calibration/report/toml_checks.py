@@ -146,10 +146,7 @@ def check_chain(
     except PoekinError as fault:
         raise ModelError(f"{keys.place}: parameter: {fault}") from fault
     same = all(getattr(own, name) == getattr(chain, name) for name in _SAME)
-    off = []
-    for name in _NEAR:
-        difference = getattr(own, name) - getattr(chain, name)
-        off.append(np.abs(difference).max(initial=0.0))
+    off = [np.abs(getattr(own, name) - getattr(chain, name)).max(initial=0.0) for name in _NEAR]
     if not same or not max(off) <= _AGREE * own.reach:
         raise keys.fault(CALIBRATED, "the chain is not what the parameters make of the nominal one")
 

@@ -32,9 +32,7 @@ class JointSpline(NamedTuple):
 
     def at(self, s: Array) -> PathDerivatives:
         """q, dq/ds and d²q/ds² at s (...) within the knots; q itself at a knot."""
-        last = len(self.knots) - 2
-        k = np.searchsorted(self.knots, s, side="right") - 1
-        k = np.clip(k, 0, last)
+        k = np.searchsorted(self.knots[1:-1], s, side="right")
         start = self.knots[k]
         h = (self.knots[k + 1] - start)[..., None]
         b = (s - start)[..., None] / h

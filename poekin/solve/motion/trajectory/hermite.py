@@ -17,9 +17,7 @@ def sample(
 
     At a time of a row ddq is that of the step after it.
     """
-    last = len(times) - 2
-    k = np.searchsorted(times, t, side="right") - 1
-    k = np.clip(k, 0, last)
+    k = np.searchsorted(times[1:-1], t, side="right")
     before = q[k]
     after = q[k + 1]
     rate_before = dq[k]

@@ -131,8 +131,7 @@ class Trajectory(Result):
         positions = translation_part(self.chain.fk(self.q))
         corners = positions[self.waypoints]
         points = np.arange(len(positions))
-        k = np.searchsorted(self.waypoints, points, side="right") - 1
-        k = np.clip(k, 0, len(corners) - 2)
+        k = np.searchsorted(self.waypoints[1:-1], points, side="right")
         way = corners[k + 1] - corners[k]
         off = positions - corners[k]
         length = np.sum(way * way, axis=1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -287,7 +287,6 @@ def _kinds(case: Case) -> tuple[str, ...]:
 def _law(
     function: str,
     says: str,
-    check: Callable[[Subject, Case], Verdict],
     helical: bool = False,
 ) -> SubjectLaw:
     jacobian = function == "jacobian"
@@ -305,7 +304,7 @@ def _law(
         says=says,
         needs=function,
         cases=lambda subject: cases(subject, kinds),
-        check=check,
+        check=_check_jacobian if jacobian else _check_fk,
         confirm=lambda subject, case: confirmed(*_of(subject, function, case), jacobian),
         show=lambda subject, case: _show(function, subject, case),
         simpler=simpler,
@@ -320,17 +319,15 @@ def _law(
 
 
 ARM_LAWS = (
-    _law("fk", "fk is the product of exponentials", _check_fk),
+    _law("fk", "fk is the product of exponentials"),
     _law(
         "jacobian",
         "the Jacobian is the derivative of the product of exponentials",
-        _check_jacobian,
     ),
-    _law("fk", "a joint with a pitch turns and slides at once", _check_fk, True),
+    _law("fk", "a joint with a pitch turns and slides at once", True),
     _law(
         "jacobian",
         "the Jacobian of joints with a pitch is the derivative",
-        _check_jacobian,
         True,
     ),
 )

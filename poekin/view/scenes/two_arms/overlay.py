@@ -37,7 +37,7 @@ def second_arm(second: Exaggerated, base: Array, factors: Array) -> SceneArm:
     """
     chain = second.chain
     geometry = chain_geometry(chain)
-    tips = page_tips(chain, ())
+    tips = page_tips(chain)
     arm = scene_arm(chain, geometry, tips, geometry.sliders)
     shift = np.zeros(len(factors))
     if second.factor > 1:
