@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 from . import source_hash  # noqa: F401  takes the key of the source as it is now
 from .locks import COMPILING
@@ -25,10 +24,10 @@ class Kernel:
 
     function: Callable
     arguments: str
-    returns: str = ""
-    quick: bool = False
-    bare: bool = False
-    portable: bool = False
+    returns: str
+    quick: bool
+    bare: bool
+    portable: bool
     call: Callable = field(init=False)
 
     def __post_init__(self) -> None:
@@ -49,8 +48,14 @@ class Kernel:
         return self.ready()(*arguments)
 
 
-def kernel(*said: Any, **named: Any):
+def kernel(
+    arguments: str,
+    returns: str = "",
+    quick: bool = False,
+    bare: bool = False,
+    portable: bool = False,
+):
     """Decorator: make a function of arrays a `Kernel`; for the argument codes see
     `engine.jit.compile.array_type`.
     """
-    return lambda function: Kernel(function, *said, **named)
+    return lambda function: Kernel(function, arguments, returns, quick, bare, portable)
