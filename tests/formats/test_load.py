@@ -8,6 +8,7 @@ import pathlib
 import warnings
 from collections import Counter
 from collections.abc import Mapping
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -290,6 +291,35 @@ def test_a_name_that_two_robots_share_needs_the_folder():
         load("erd:anymal_c_simple_description/anymal"),
     )
     assert b != c
+
+
+@pytest.fixture
+def packaged(monkeypatch):
+    """Two robots `anymal` and one `banymal`, in the package example-robot-data."""
+
+    def packed(path: str) -> importlib.metadata.PackagePath:
+        file = importlib.metadata.PackagePath("robots", path)
+        file.dist = SimpleNamespace(locate_file=pathlib.PurePosixPath("/site").joinpath)  # type: ignore[assignment]
+        return file
+
+    files = [packed(f"{path}.urdf") for path in ("d/urdf/banymal", "c/urdf/anymal", "a/b/anymal")]
+    monkeypatch.setattr(importlib.metadata, "files", lambda package: files)
+    erd.available.cache_clear()
+    yield
+    erd.available.cache_clear()
+
+
+def test_robots_of_example_robot_data_are_in_alphabetical_order(packaged):
+    assert list(erd.available().items()) == [
+        ("a/anymal", "/site/robots/a/b/anymal.urdf"),
+        ("banymal", "/site/robots/d/urdf/banymal.urdf"),
+        ("c/anymal", "/site/robots/c/urdf/anymal.urdf"),
+    ]
+
+
+def test_a_shared_name_is_answered_with_those_that_have_it_and_no_longer_name(packaged):
+    with pytest.raises(UnknownName, match=r"; it is one of 'a/anymal', 'c/anymal'$"):
+        load("erd:anymal")
 
 
 def test_without_example_robot_data_its_name_is_in_the_message(monkeypatch):
