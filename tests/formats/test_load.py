@@ -317,6 +317,15 @@ def test_robots_of_example_robot_data_are_in_alphabetical_order(packaged):
     ]
 
 
+def test_a_file_whose_links_belong_to_something_else_than_the_robot_is_empty(tmp_path, monkeypatch):
+    texts = {"arm": one_joint(), "none": "<robot><gazebo><link/></gazebo></robot>"}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    paths = {name: str(tmp_path / name) for name in texts}
+    monkeypatch.setattr(erd, "available", lambda: paths)
+    assert [list(found) for found in erd.example_robots()] == [["arm"], ["none"]]
+
+
 def test_a_shared_name_is_answered_with_those_that_have_it_and_no_longer_name(packaged):
     with pytest.raises(UnknownName, match=r"; it is one of 'a/anymal', 'c/anymal'$"):
         load("erd:anymal")
