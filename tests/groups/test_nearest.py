@@ -127,11 +127,7 @@ def test_a_last_row_may_be_off_by_as_much_as_that_of_a_pose_all_together(each, t
     M = T_0.copy()
     M[3, :3] = each  # three of them: 0.99e-5 or 1.02e-5, of 1e-5
     for function in (se3.nearest, se3.inverse):
-        with (
-            contextlib.nullcontext()
-            if taken
-            else pytest.raises(PoseError, match="the last row|last row is")
-        ):
+        with contextlib.nullcontext() if taken else pytest.raises(PoseError, match=r"last row"):
             function(M)
 
 
