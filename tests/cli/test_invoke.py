@@ -1,0 +1,34 @@
+"""What is said of a command that warns, or whose arguments are refused: each thing once."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+from poekin.cli import commands
+from poekin.errors import PoekinWarning
+
+
+def test_a_warning_is_said_once_however_often_it_comes_up(poekin, monkeypatch):
+    def command(**_: object) -> None:
+        for text in ("first", "second", "first"):
+            warnings.warn(text, PoekinWarning, stacklevel=1)
+
+    monkeypatch.setattr(commands, "command", command)
+    assert poekin("fk") == (0, "", "poekin: warning: first\npoekin: warning: second\n")
+    assert poekin("fk")[2].count("first") == 1  # by the next command once more
+
+
+def test_the_help_of_an_option_follows_where_it_is_missing_and_not_where_its_value_is_wrong(
+    refused,
+):
+    app: Any = commands.command
+    helps = {
+        parameter.name: parameter.help
+        for name in ("conform", "jacobian")
+        for parameter in app.commands[name].params
+    }
+    wrong = refused("conform", "module:Class", "--seconds", "soon")
+    assert "--seconds" in wrong
+    assert helps["seconds"] not in wrong
+    assert helps["frame"] in refused("jacobian", "ur5e")
