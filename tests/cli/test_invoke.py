@@ -5,6 +5,9 @@ from __future__ import annotations
 import warnings
 from typing import Any
 
+import pytest
+import typer
+
 from poekin.cli import commands
 from poekin.errors import PoekinWarning
 
@@ -32,3 +35,16 @@ def test_the_help_of_an_option_follows_where_it_is_missing_and_not_where_its_val
     assert "--seconds" in wrong
     assert helps["seconds"] not in wrong
     assert helps["frame"] in refused("jacobian", "ur5e")
+
+
+@pytest.mark.parametrize(
+    ("end", "code"),
+    [(typer.Abort(), 130), (KeyboardInterrupt(), 130), (SystemExit(1), 141)],
+    ids=repr,
+)
+def test_an_end_that_is_no_error_is_an_exit_code_of_its_own(poekin, monkeypatch, end, code):
+    def command(**_: object) -> None:
+        raise end
+
+    monkeypatch.setattr(commands, "command", command)
+    assert poekin("fk") == (code, "", "")
