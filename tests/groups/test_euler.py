@@ -62,8 +62,8 @@ def test_multiples_of_ninety_degrees_are_exact_and_no_zero_has_a_sign(sequence):
 def test_degrees_of_any_size_are_what_is_left_after_whole_turns(sequence, angle):
     left = float(math.fmod(angle, 360.0))  # exact, as math.fmod always is
     big, small = ([[x, 20.0, 0.0], [30.0, x, 0.0], [0.0, 50.0, x]] for x in (angle, left))
-    found = [euler.rotations(np.array(x), sequence, degrees=True) for x in (big, small)]
-    assert np.array_equal(*found)
+    found, right = (euler.rotations(np.array(x), sequence, degrees=True) for x in (big, small))
+    assert np.array_equal(found, right)
 
 
 @pytest.mark.parametrize("turns", [1, -1, 10**6])
