@@ -48,3 +48,13 @@ def test_an_end_that_is_no_error_is_an_exit_code_of_its_own(poekin, monkeypatch,
 
     monkeypatch.setattr(commands, "command", command)
     assert poekin("fk") == (code, "", "")
+
+
+NAMES = [module.__name__.rpartition(".")[2].replace("_", "-") for module in commands.COMMANDS]
+
+
+@pytest.mark.parametrize("name", sorted({*NAMES} - {"fk", "jacobian", "singularity", "ik"}))
+def test_an_option_that_there_is_not_is_said_by_its_name_where_no_number_is_taken(name, refused):
+    said = refused(name, "a", "b", "--nonsense", "0.5")
+    assert "--nonsense" in said
+    assert "extra argument" not in said
