@@ -201,6 +201,12 @@ def test_a_count_is_a_dict_with_pairs_of_sines_and_cosines():
     assert str(Count()) == "no operations"
 
 
+@pytest.mark.parametrize("sines, cosines", [(0, 0), (1, 3), (3, 1), (2, 2)])
+def test_an_angle_of_which_only_one_is_needed_is_a_pair(sines, cosines):
+    count = Count(sines=sines, cosines=cosines)
+    assert count.sine_cosine_pairs == max(sines, cosines)
+
+
 def test_a_float_one_is_a_number_like_any_other():
     total = Count()
     _ = Counted(2.0, total) * 1.0

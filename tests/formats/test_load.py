@@ -8,6 +8,7 @@ import pathlib
 import warnings
 from collections import Counter
 from collections.abc import Mapping
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -290,6 +291,44 @@ def test_a_name_that_two_robots_share_needs_the_folder():
         load("erd:anymal_c_simple_description/anymal"),
     )
     assert b != c
+
+
+@pytest.fixture
+def packaged(monkeypatch):
+    """Two robots `anymal` and one `banymal`, in the package example-robot-data."""
+
+    def packed(path: str) -> importlib.metadata.PackagePath:
+        file = importlib.metadata.PackagePath("robots", path)
+        file.dist = SimpleNamespace(locate_file=pathlib.PurePosixPath("/site").joinpath)  # type: ignore[assignment]
+        return file
+
+    files = [packed(f"{path}.urdf") for path in ("d/urdf/banymal", "c/urdf/anymal", "a/b/anymal")]
+    monkeypatch.setattr(importlib.metadata, "files", lambda package: files)
+    erd.available.cache_clear()
+    yield
+    erd.available.cache_clear()
+
+
+def test_robots_of_example_robot_data_are_in_alphabetical_order(packaged):
+    assert list(erd.available().items()) == [
+        ("a/anymal", "/site/robots/a/b/anymal.urdf"),
+        ("banymal", "/site/robots/d/urdf/banymal.urdf"),
+        ("c/anymal", "/site/robots/c/urdf/anymal.urdf"),
+    ]
+
+
+def test_a_file_whose_links_belong_to_something_else_than_the_robot_is_empty(tmp_path, monkeypatch):
+    texts = {"arm": one_joint(), "none": "<robot><gazebo><link/></gazebo></robot>"}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    paths = {name: str(tmp_path / name) for name in texts}
+    monkeypatch.setattr(erd, "available", lambda: paths)
+    assert [list(found) for found in erd.example_robots()] == [["arm"], ["none"]]
+
+
+def test_a_shared_name_is_answered_with_those_that_have_it_and_no_longer_name(packaged):
+    with pytest.raises(UnknownName, match=r"; it is one of 'a/anymal', 'c/anymal'$"):
+        load("erd:anymal")
 
 
 def test_without_example_robot_data_its_name_is_in_the_message(monkeypatch):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 
 import numpy as np
 import pytest
@@ -54,6 +55,15 @@ def test_multiples_of_ninety_degrees_are_exact_and_no_zero_has_a_sign(sequence):
     np.testing.assert_array_equal(euler.rotations(back, sequence, degrees=True), R)
     assert (back > -180.0).all()
     assert (euler.angles(R, sequence) > -np.pi).all()
+
+
+@pytest.mark.parametrize("angle", [1e17, -3.7e19, 2.0**70, 1e300, -1.7e308])
+@pytest.mark.parametrize("sequence", SEQUENCES)
+def test_degrees_of_any_size_are_what_is_left_after_whole_turns(sequence, angle):
+    left = float(math.fmod(angle, 360.0))  # exact, as math.fmod always is
+    big, small = ([[x, 20.0, 0.0], [30.0, x, 0.0], [0.0, 50.0, x]] for x in (angle, left))
+    found, right = (euler.rotations(np.array(x), sequence, degrees=True) for x in (big, small))
+    assert np.array_equal(found, right)
 
 
 @pytest.mark.parametrize("turns", [1, -1, 10**6])

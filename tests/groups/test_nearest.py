@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 
 import numpy as np
@@ -119,6 +120,15 @@ def test_the_distance_that_is_accepted_can_be_set():
     T[:3, :3] *= 1.5
     assert np.abs(se3.nearest(T, max_moved=1.0).T - T_0).max() < 1e-15
     assert se3.nearest(changed(T_0, (3, 0), 0.9e-5)).moved.shape == (2,)
+
+
+@pytest.mark.parametrize("each, taken", [(0.33e-5, True), (0.34e-5, False)])
+def test_a_last_row_may_be_off_by_as_much_as_that_of_a_pose_all_together(each, taken):
+    M = T_0.copy()
+    M[3, :3] = each  # three of them: 0.99e-5 or 1.02e-5, of 1e-5
+    for function in (se3.nearest, se3.inverse):
+        with contextlib.nullcontext() if taken else pytest.raises(PoseError, match=r"last row"):
+            function(M)
 
 
 @pytest.mark.parametrize("most", [np.nan, -1e-9, -np.inf, True, "a", None, [0.1], np.array(0.1)])

@@ -50,6 +50,24 @@ def test_each_way_to_a_jacobian_is_the_chain_s(name, way):
         assert (np.hstack([rotation, origin]).max(axis=1) <= near(chain, q)).all()
 
 
+@pytest.mark.parametrize("frame", [None, *NAMED, 0, 3, 4], ids=str)
+def test_a_program_is_the_cheapest_of_all_ways_of_which_each_is_traced_once(frame, monkeypatch):
+    arm = CHAINS["mixed"].compile().structure
+    every = [specialise._traced(arm, frame, True, *way) for way in WAYS]
+    traced = []
+
+    def noted(*arguments):
+        traced.append(whole(*arguments))
+        return traced[-1]
+
+    whole = specialise._traced
+    monkeypatch.setattr(specialise, "_traced", noted)
+    made = specialise.cheapest_program(arm, frame, True)
+    assert specialise._cost(made) == min(map(specialise._cost, every))
+    # in all frames but a joint's own two of the four ways go one way alone: they are the others
+    assert len(traced) == (4 if isinstance(frame, int) else 2)
+
+
 @pytest.mark.parametrize("inner, outer", WAYS)
 def test_columns_are_taken_from_the_point_seen_up_to_the_joint_of_the_frame_and_behind_it(
     inner, outer, monkeypatch

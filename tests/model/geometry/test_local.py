@@ -58,6 +58,17 @@ def test_link_frames_stand_on_their_axes_nearest_to_the_frame_before(chain):
     )
 
 
+@pytest.mark.parametrize("turned", [[-1, -1, 1, 1], [1, -1, -1, 1], [-1, 1, -1, 1]], ids=str)
+def test_no_zero_of_the_local_form_has_a_sign(turned):
+    screws = [
+        screw.prismatic(-Z),
+        screw.revolute([0, -1, 0], [0, 0, 1]),
+        screw.revolute(-Z, [0, 1, 0]),
+    ]
+    for part in Chain.from_space(screws, np.diag(turned)).local:
+        assert not np.signbit(part[part == 0]).any()
+
+
 def test_joints_turn_and_slide_by_their_kind():
     rows = [
         screw.revolute(Z, [1, 0, 0]),

@@ -7,6 +7,7 @@ import math
 import pytest
 
 from poekin.testing.conform.grades import ErrorPart, Grade, graded
+from poekin.testing.conform.subjects.precision import SINGLE
 from poekin.testing.laws.laws import LawViolation
 
 
@@ -58,3 +59,10 @@ def test_a_violation_carries_the_error_and_the_bound_of_the_grade_asked_for():
     # No error is small enough for what gave no result.
     assert (caught.value.error, caught.value.bound) == (math.inf, 0.0)
     assert graded("law", "NaN").fault == "NaN"
+
+
+@pytest.mark.parametrize(("at_most", "bound"), [(Grade.GOOD, 1e-5), (Grade.POOR, 1e-3)])
+def test_a_violation_of_what_computes_in_float32_carries_the_bound_of_float32(at_most, bound):
+    with pytest.raises(LawViolation, match=f"exceeds {bound:g}") as caught:
+        graded("law", [ErrorPart("x", 1e-2, 1.0, 0.0, SINGLE)], at_most)
+    assert caught.value.bound == bound

@@ -17,7 +17,7 @@ from poekin.errors import InputError
 from poekin.testing.conform import search
 from poekin.testing.conform.grades import Grade, Verdict
 from poekin.testing.conform.laws.law import Case, Shown, SubjectLaw
-from poekin.testing.conform.process.calls import ENDED, UNANSWERED
+from poekin.testing.conform.process.calls import ENDED, LOST, UNANSWERED
 from poekin.testing.conform.subjects.precision import DOUBLE, SINGLE
 from poekin.testing.strategies.group_strategies import st
 
@@ -86,13 +86,10 @@ def test_broken_late_is_enough_at_once():
     assert worst(check, 150, allowed=lambda case: False).examples == 121
 
 
-def test_a_subject_whose_process_ended_is_not_asked_again():
-    assert (
-        worst(
-            lambda case: verdict(Grade.BROKEN, fault=ENDED), 50, allowed=lambda case: False
-        ).examples
-        == 1
-    )
+@pytest.mark.parametrize("fault", [ENDED, UNANSWERED, LOST])
+def test_a_subject_whose_process_ended_or_cannot_be_made_is_not_asked_again(fault):
+    broken = verdict(Grade.BROKEN, fault=f"{fault} x")
+    assert worst(lambda case: broken, 50, allowed=lambda case: False).examples == 1
 
 
 @pytest.mark.parametrize(

@@ -32,6 +32,14 @@ def test_one_angle_in_four_is_pi_or_one_of_the_8_floats_below_it(gaps):
     assert 0.2 < np.mean(gaps <= 8) < 0.4
 
 
+def test_the_bytes_of_a_float_nearby_reach_from_the_centre_to_the_eighth():
+    floats = [
+        near_strategies._angle(BytesReader(bytes([0, 255, byte])), PI, 1e-3, True)
+        for byte in range(256)
+    ]
+    assert sorted(set(floats)) == [PI + k * math.ulp(PI) for k in range(9)]
+
+
 def test_every_decade_below_pi_is_drawn_and_nothing_beyond(gaps):
     assert {int(k) for k in np.log10(gaps[gaps > 0])} >= set(range(-15, -2))
     assert 0 <= gaps.min() <= gaps.max() <= near_strategies.WIDEST + math.ulp(PI)

@@ -33,6 +33,13 @@ def test_as_many_rows_are_kept_as_there_have_to_be():
         assert np.flatnonzero(kept).tolist() == [0, 1, 2, 3, 4, *more]
 
 
+def test_the_median_is_that_of_all_rows_kept_or_not():
+    off = np.array([1.0, 2.0, 3.0, 100.0, 200.0])
+    found = reweighted(lambda w: Weighted(None, off), 5, 1, 1e-13)
+    assert np.flatnonzero(found.kept).tolist() == [0, 1, 2]
+    assert found.median == 3.0
+
+
 def test_what_is_rounding_is_kept_whatever_the_median_is():
     weights = []
 

@@ -108,6 +108,24 @@ def test_what_is_computed_in_float32_and_returned_in_float64_is_declared():
         conform(Wide, ["so3_exp"])
 
 
+def test_the_first_result_of_a_function_says_its_precision_and_a_declaration_goes_before_it():
+    class Exp:
+        precision: str | None = None
+
+        def so3_exp(self, w):
+            return np.eye(3)
+
+    subject = Subject(Exp)
+    for kind in (np.float32, np.float64):
+        subject.noted("so3_exp", np.eye(3, dtype=kind))
+        assert subject.precision("so3_exp") is SINGLE
+    assert subject.precision("so3_log") is DOUBLE
+    Exp.precision = "float64"
+    subject = Subject(Exp)
+    subject.noted("so3_exp", np.eye(3, dtype=np.float32))
+    assert subject.precision("so3_exp") is DOUBLE
+
+
 def test_a_precision_is_that_of_the_type_of_the_result():
     class Tensor:
         dtype = "torch.float32"

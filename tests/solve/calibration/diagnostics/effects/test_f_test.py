@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 
 from poekin.solve.calibration.diagnostics.effects import f_test as module
-from poekin.solve.calibration.diagnostics.effects.f_test import f_survival, f_test, left_of
+from poekin.solve.calibration.diagnostics.effects.f_test import (
+    coefficients,
+    f_survival,
+    f_test,
+    left_of,
+)
 
 RNG = np.random.default_rng(4)
 A = RNG.normal(size=(60, 5))
@@ -61,6 +66,20 @@ def test_the_continued_fraction_ends_where_it_has_converged(a, b, monkeypatch):
     module._incomplete_beta(a, b, Counted((a + 1) / (a + b + 2)))
     # turns grow as the root of the larger of a and b (Press et al. 1992, section 6.4)
     assert Counted.products <= 2 * (20 + 2 * max(a, b) ** 0.5)
+
+
+def test_coefficients_are_of_columns_of_any_sizes():
+    sizes = np.array([1e-12, 1.0, 1e9])
+    right = np.linalg.lstsq(X, E, rcond=None)[0]
+    # X is well conditioned: a few roundings of the largest
+    assert coefficients(X * sizes, E) * sizes == pytest.approx(right, rel=0, abs=1e-13)
+
+
+def test_coefficients_that_are_not_told_are_no_larger_than_those_that_are():
+    """Of twins that differ by rounding alone each has half, and a column of zeros has none."""
+    twins = np.column_stack([X[:, 0], X[:, 0] + 1e-14 * X[:, 1], 0 * E])
+    alone = X[:, 0] @ E / (X[:, 0] @ X[:, 0])
+    assert coefficients(twins, E) == pytest.approx([alone / 2, alone / 2, 0], rel=0, abs=1e-12)
 
 
 def rest(*columns):
