@@ -17,10 +17,16 @@ FILLED = {
     "ChainPictures",
     "ChainCoordinates",
     "Count",
+    "Fields",  # a frozen one takes longer to make, and there are as many as a file has elements
     "Follower",
     "Instance",
+    "Kernel",
     "Outputs",
+    "Ranges",
+    "Traced",  # as Fields: there are as many as operations
+    "_Builder",
     "_Joint",
+    "_Level",
     "_Run",
     "_Way",
 }

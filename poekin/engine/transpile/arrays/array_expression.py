@@ -26,7 +26,7 @@ _CASTS: dict[Any, str] = {int: "int64", np.int64: "int64", np.uint64: "uint64"}
 _JOINED = {ast.And: ast.BitAnd, ast.Or: ast.BitOr}
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class ArrayExpression(ast.NodeTransformer):
     """Expressions of one function; `names` are its local names in the text, `called` says the name of a
     function that it calls.
