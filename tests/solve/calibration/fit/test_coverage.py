@@ -11,10 +11,8 @@ from tests.solve.calibration.fit.sagging import ARM, POINTS, SAG, measured, sagg
 TRUTHS = 15
 EACH = 20
 ROWS = 50
-KNOWN = 1000
-"""Configurations from which an arm is known: a fit's errors are smaller there by the root of 20, so
-that of 95 % half a per cent is lost.
-"""
+KNOWN = 2500
+"""Configurations from which an arm is known: a fit's errors are smaller there by the root of 50."""
 TWO_SIGMA = 1.96
 KINDS = [("reflectors", SAG), ("reflectors", 0.0), ("poses", 0.0), ("poses", SAG), ("point", 0.0), ("point", SAG),
          ("distance", 0.0), ("camera", 0.0), ("camera", SAG)]  # fmt: skip
