@@ -357,7 +357,7 @@ def plant(root: Path, files: dict[str, str]) -> Path:
 
 
 # What `make readable` prints may not get worse than this; where a bar is reached, the bar holds.
-REACHED = {"code tokens": 487_114}
+REACHED = {"code tokens": 487_111}
 
 
 def test_the_code_reads_no_worse_than_it_did():

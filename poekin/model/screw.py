@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import algebra
 from ..errors import InputError, ScrewError
 from ..groups.arrays import Array, element_name, shaped
 from ..groups.vectors import angular_part, linear_part, norm, norms
@@ -120,7 +121,7 @@ def helical(axis: ArrayLike, point: ArrayLike, pitch: float) -> Array:
         )
     # The cross product with a far point has the rounding of that distance along z too, which would
     # pass for a pitch.
-    S = np.concatenate([z, np.cross(p, z)])
+    S = np.array([*z, *algebra.cross(p, z)])
     (S,) = with_pitches(S[None], np.zeros(1))
     S[3:] += h * z
     return S
@@ -197,7 +198,7 @@ def axis_of(screw: ArrayLike) -> Axis:
     v = linear_part(S)
     if not w.any():
         return Axis(v, None, np.inf)
-    return Axis(w, np.cross(w, v), pitch_of(S))
+    return Axis(w, np.cross(w, v), float(pitch_of(S)))
 
 
 def normalised(screws: ArrayLike, tolerance: float = ROUNDED) -> Array:

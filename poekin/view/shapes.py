@@ -73,10 +73,10 @@ def creased(surface: Surface) -> Surface:
     cosines = np.einsum("ki,ki->k", normals[first], normals[second])
     flat = cosines > SHARP
     patches = _joined(len(faces), first[flat], second[flat])
-    patch_of_corner = np.repeat(patches, 3)
-    corners = np.stack([faces.ravel(), patch_of_corner], axis=1)
-    kept, numbers = np.unique(corners, axis=0, return_inverse=True)
-    vertices = surface.vertices[kept[:, 0]]
+    # a vertex and a patch as one number
+    corners = len(faces) * faces.ravel() + np.repeat(patches, 3)
+    kept, numbers = np.unique(corners, return_inverse=True)
+    vertices = surface.vertices[kept // len(faces)]
     return Surface(vertices, numbers.reshape(-1, 3))
 
 

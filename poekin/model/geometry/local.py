@@ -68,9 +68,10 @@ def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
     to_tip = algebra.subtract(tip, algebra.translation(here))
     tool = (algebra.unrotate(here, a) for a in (X, Y, Z, to_tip))
     rows = np.array([*links, algebra.from_axes(*tool)]) + 0.0  # no zero with a sign
-    frames = np.tile(np.eye(4), (len(rows), 1, 1))
+    frames = np.zeros((len(rows), 4, 4))
     frames[:, :3, :3] = rows[:, :9].reshape(-1, 3, 3)
     frames[:, :3, 3] = rows[:, 9:]
+    frames[:, 3, 3] = 1.0
     slides = np.where(turning, pitches, 1.0)
     return LocalForm(read_only(frames), read_only(turning.astype(float)), read_only(slides))
 

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import ScrewError, ShapeError, quote
 from ...groups.arrays import Array, numbers
-from ...groups.vectors import angular_part, directions, linear_part, norm, norms
+from ...groups.vectors import angular_part, directions, linear_part, norms
 from ..checks import LONGEST, finite
 from .remedies import UNIT, matrix_among, other_reading
 
@@ -70,12 +70,13 @@ def _rows(screws: ArrayLike, what: str) -> Array:
     )
 
 
-def pitch_of(screw: Array) -> float:
-    """omega . v of a unit screw (6,) with omega != 0, in m per rad; exactly 0 where it is rounding."""
-    pitch = float(angular_part(screw) @ linear_part(screw))
-    if abs(pitch) <= _NO_PITCH * max(1.0, norm(linear_part(screw))):
-        return 0.0
-    return pitch
+def pitch_of(screws: Array) -> Array:
+    """omega . v (...) of unit screws (..., 6), in m per rad; exactly 0 where it is rounding."""
+    w = angular_part(screws)
+    v = linear_part(screws)
+    pitches = (w * v).sum(axis=-1)
+    is_rounding = np.abs(pitches) <= _NO_PITCH * np.maximum(1.0, norms(v))
+    return np.where(is_rounding, 0.0, pitches)
 
 
 def pitches_of(
@@ -88,16 +89,14 @@ def pitches_of(
     Raises: ShapeError; ScrewError for a pitch of a prismatic joint or one above 1e100; InputError
     for one that is not finite.
     """
-    turns = np.any(angular_part(screws), axis=1)
     if given is None:
-        return np.array(
-            [pitch_of(S) if turning else 0.0 for S, turning in zip(screws, turns, strict=True)]
-        )
+        return pitch_of(screws)
     pitches = finite(given, "pitches")
     if pitches.shape != (len(screws),):
         raise ShapeError(
             f"pitches: expected shape ({len(screws)},), one number a joint, got {pitches.shape}"
         )
+    turns = angular_part(screws).any(axis=1)
     for i, (pitch, turning) in enumerate(zip(pitches.tolist(), turns, strict=True)):
         if abs(pitch) > LONGEST:
             where = _place("pitches", i, names)
@@ -119,9 +118,9 @@ def with_pitches(screws: Array, pitches: Array) -> Array:
     """
     w = angular_part(screws)
     v = linear_part(screws)
-    missing = pitches - (w * v).sum(1)
+    missing = pitches - (w * v).sum(axis=1)
     far = np.maximum(1.0, norms(v))
-    put = np.any(w, axis=1) & (np.abs(missing) > _NO_PITCH * far)
+    put = w.any(axis=1) & (np.abs(missing) > _NO_PITCH * far)
     out = screws.copy()
     out[put, 3:] += missing[put, None] * w[put]
     return out

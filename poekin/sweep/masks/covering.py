@@ -153,7 +153,7 @@ class _Skin(NamedTuple):
     def farthest(self, points: Array) -> float:
         """Distance of the farthest point from the surface, of those that are outside, m."""
         # a product of so few columns is slower where a library takes threads for it
-        products = np.einsum("ik,jk->ij", points, self.points)
+        products = np.einsum("ik,kj->ij", points, np.ascontiguousarray(self.points.T))
         squares = (self.points**2).sum(axis=1) - 2 * products
         nearest = squares.argmin(axis=1)
         away = points - self.points[nearest]

@@ -246,10 +246,9 @@ def _rotations(R_A: Array, R_B: Array, w: Array) -> Weighted[_Turns]:
     K = R_A.reshape(-1, 9).T @ weighted
     kron = K.reshape(3, 3, 3, 3).swapaxes(1, 2)
     U, _, V = np.linalg.svd(kron.reshape(9, 9))
-    X = U[:, 0].reshape(3, 3)
-    sign = np.copysign(1.0, np.linalg.det(X))  # the singular vectors are those of both signs
-    R_X = _rotation(sign * X)
-    R_Z = _rotation(sign * V[0].reshape(3, 3))
+    both = np.reshape([U[:, 0], V[0]], (2, 3, 3))
+    sign = np.copysign(1.0, np.linalg.det(both[0]))  # the singular vectors are those of both signs
+    R_X, R_Z = _rotation(sign * both)
     misses = R_A @ R_Z - R_X @ R_B
     return Weighted(_Turns(R_X, R_Z), _chord(misses))
 
@@ -261,15 +260,12 @@ def _chord(difference: Array) -> Array:
 
 
 def _rotation(M: Array) -> Array:
-    """The rotation nearest to M: U diag(1, 1, det U det V) V^T of its singular value decomposition."""
+    """The rotation nearest to each M (..., 3, 3): U diag(1, 1, det U V^T) V^T of its singular value
+    decomposition.
+    """
     U, _, V = np.linalg.svd(M)
-    det = np.linalg.det(U) * np.linalg.det(V)
-    signs = [
-        1.0,
-        1.0,
-        np.copysign(1.0, det),
-    ]
-    return (U * signs) @ V
+    U[..., 2] *= np.linalg.det(U @ V).round()[..., None]
+    return U @ V
 
 
 def _check_turns(R: Array, scatter: float) -> None:

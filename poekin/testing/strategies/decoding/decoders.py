@@ -75,7 +75,8 @@ def axis(r: BytesReader) -> Array:
         anywhere = np.array(shares)
         if math.hypot(*anywhere) > 0.1:
             n = anywhere
-    return np.roll(n / math.hypot(*n), place)
+    n /= math.hypot(*n)
+    return n[(np.arange(3) - place) % 3]
 
 
 def vector(r: BytesReader, lengths: tuple[float, float]) -> Array:
