@@ -33,7 +33,7 @@ ifneq ($(SETUP_OF),$(CURDIR))
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help report test test-all test-deep test-processors lint style types readable wheel-check release-check docs mutate fuzz
+.PHONY: help setup report test test-all test-deep test-processors lint style types readable wheel-check release-check docs mutate fuzz
 
 help:
 	@echo "make test         run all tests but the slow ones (5 minutes); ONLY=tests/groups runs all of those"
@@ -48,10 +48,13 @@ help:
 	@echo "make fuzz         give the readers 10⁶ broken files; COUNT=10000 gives the URDF reader that many, others a tenth"
 	@echo "make release-check build the source distribution and the wheel twice, check them and leave them in dist/"
 	@echo "make wheel-check  build the wheel and use it where the source tree cannot be imported"
+	@echo "make setup        set up $(VENV) and do nothing else"
 	@echo "Each sets up $(VENV) first if need be. With another interpreter: make test PYTHON=python3.12"
 	@echo "With the lowest versions that poekin takes: make test CONSTRAINTS=constraints-lowest.txt"
 
 PYTEST = $(PY) -m pytest -n 2 --dist worksteal --durations=10
+
+setup: $(VENV)/dev
 
 # Slow are the files that tests/conftest.py lists: browsers, notebooks, processes, compilers, searches.
 test: $(VENV)/dev

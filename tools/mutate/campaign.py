@@ -23,7 +23,7 @@ from .server import EPOCH, LIBRARIES, SETTINGS
 
 Outcome = dict[str, object]
 _LEFT_OUT = shutil.ignore_patterns(
-    ".git", ".venv", "build", "dist", "_build", "__pycache__", ".*_cache", ".hypothesis"
+    ".git", ".venv*", "build", "dist", "_build", "__pycache__", ".*_cache", ".hypothesis"
 )
 NOT_FOUND = "pytest itself (exit code 4)"
 """What catches a mutant where a test that was asked for is not there."""
