@@ -506,6 +506,14 @@ def test_no_mutant_takes_the_bytecode_of_another_of_the_same_length(small):
     assert times[0] == 0 < times[1]
 
 
+def test_no_environment_is_copied_with_the_tree(tmp_path):
+    folders = ["poekin", ".venv", ".venv-3.12-lowest"]
+    for name in folders:
+        (tmp_path / "root" / name).mkdir(parents=True)
+    campaign.copy(tmp_path / "root", tmp_path / "tree")
+    assert [folder.name for folder in (tmp_path / "tree").iterdir()] == ["poekin"]
+
+
 def test_after_the_time_that_is_given_no_mutant_is_begun(small):
     assert run(small, seconds=0) == {}
     assert run(small, lambda m: m.new == "return x * 3", seconds=600) == {"return x * 3": "caught"}

@@ -34,14 +34,18 @@ class BrokenSuite(Exception):
     """The tests fail without any mutant: nothing would be proven."""
 
 
+def copy(root: Path, place: Path) -> None:
+    """Copy the tree to a place, every file of one time."""
+    shutil.copytree(root, place, ignore=_LEFT_OUT)
+    for file in place.rglob("*"):
+        os.utime(file, (EPOCH, EPOCH))
+
+
 class Server:
     """A copy of the tree and the process that runs mutants in it."""
 
     def __init__(self, root: Path, place: Path, known: Path | None):
-        self.tree = place
-        shutil.copytree(root, place, ignore=_LEFT_OUT)
-        for file in place.rglob("*"):
-            os.utime(file, (EPOCH, EPOCH))
+        copy(root, place)
         kept = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
         self._process = subprocess.Popen(
             [sys.executable, "-m", "tools.mutate.server", str(known or ""), *LIBRARIES],
