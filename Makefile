@@ -44,7 +44,7 @@ help:
 	@echo "make lint         check style (ruff), docstrings (numpydoc) and types (pyright)"
 	@echo "make readable     measure how the code reads: tokens a line, assignments, ternaries, beside the bars"
 	@echo "make docs         build the pages of docs/ and print where they are"
-	@echo "make mutate       plant every error of 120 000 and say which the tests catch (days); SAMPLE=300 WITHIN=600 plants that many, or as ten minutes allow"
+	@echo "make mutate       plant each of 137 000 errors and say which the tests catch (days); SAMPLE=300 WITHIN=600 plants that many, or as ten minutes allow"
 	@echo "make fuzz         give the readers 10⁶ broken files; COUNT=10000 gives the URDF reader that many, others a tenth"
 	@echo "make release-check build the source distribution and the wheel twice, check them and leave them in dist/"
 	@echo "make wheel-check  build the wheel and use it where the source tree cannot be imported"

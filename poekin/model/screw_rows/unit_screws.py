@@ -96,7 +96,7 @@ def pitches_of(
         raise ShapeError(
             f"pitches: expected shape ({len(screws)},), one number a joint, got {pitches.shape}"
         )
-    turns = angular_part(screws).any(axis=1)
+    turns = np.any(angular_part(screws), axis=1)
     for i, (pitch, turning) in enumerate(zip(pitches.tolist(), turns, strict=True)):
         if abs(pitch) > LONGEST:
             where = _place("pitches", i, names)
