@@ -10,7 +10,6 @@ Raises: LawViolation, by the laws alone. Source: each law names its own.
 from __future__ import annotations
 
 import functools
-import math
 from collections.abc import Callable, Mapping
 from typing import Any, Concatenate, Literal, NamedTuple, ParamSpec, TypeVar
 
@@ -121,8 +120,6 @@ def check_bounds(
             raise LawViolation(law, float(error), float(bound), seen)
         if error:
             worst = max(worst, float(error / bound))
-    if not math.isfinite(worst):
-        return 0.0
     return worst
 
 

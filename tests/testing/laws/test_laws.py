@@ -20,7 +20,7 @@ from poekin.model.chain import Chain
 from poekin.testing.accuracy import falsify
 from poekin.testing.laws import group_laws, measures
 from poekin.testing.laws.group import Group, make_group
-from poekin.testing.laws.laws import Law, LawViolation, check_bounds
+from poekin.testing.laws.laws import Law, LawViolation, check_bounds, checked
 from tests.model.laws import chain_bounds
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -50,6 +50,18 @@ def test_the_arguments_of_a_violation_can_be_pasted_to_the_last_digit():
     assert eval(lines["  none"], {"np": np}).shape == (0, 6)
     assert lines["  k"] == "3"
     assert "long = array([0., 0., 0., ..., 0., 0., 0." in said
+
+
+def test_an_array_of_400_numbers_is_in_the_message_whole():
+    said = str(LawViolation("a law", 2.0, 1.0, {"x": np.zeros(400)}))
+    assert f"x = np.array({[0.0] * 400})" in said
+
+
+def test_arguments_by_name_are_in_the_message_too():
+    law = checked()(lambda subject, q, step: [(2.0, 1.0)])
+    with pytest.raises(LawViolation) as first_violation:
+        law(None, 1.0, step=3)
+    assert first_violation.value.seen == {"q": 1.0, "step": 3}
 
 
 def test_a_chain_that_breaks_a_law_is_in_the_message_with_its_numbers():
@@ -133,6 +145,10 @@ def test_a_size_neither_underflows_nor_hides_nan():
     assert math.isnan(measures.size(np.array([1.0, math.nan])))
     assert measures.size(np.array([math.inf, 1.0])) == math.inf
     assert measures.size(np.empty(0)) == 0
+
+
+def test_a_size_with_an_infinite_number_is_infinite_however_large_the_others():
+    assert measures.size(np.array([-np.inf, 1e300])) == np.inf
 
 
 def run(code: str) -> str:
