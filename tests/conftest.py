@@ -72,7 +72,7 @@ SLOW = (
     *("formulas/ik/test_circle_conic.py", "formulas/ik/test_two_circles.py"),
     "formulas/ik/test_three_parallel.py",
 )
-"""Files, folders and tests, below tests/, of more than half the time and a seventh of the tests;
+"""Files, folders and tests, below tests/, of three fifths of the time and an eighth of the tests;
 `make test-all` runs them too.
 """
 
