@@ -44,6 +44,7 @@ def for_each(
     @seed(0)
     @settings(
         max_examples=examples,
+        # A seed stores no case; older versions warn of a directory where none could be stored.
         database=None,
         deadline=None,
         phases=(Phase.generate, Phase.target),

@@ -98,6 +98,14 @@ def test_a_constant_that_is_added_and_taken_away_leaves_no_trace():
     assert cost(graph, 1.0 + (1.0 - x), 1.0 - (1.5 - x)) == (0, 4)
 
 
+def test_a_constant_that_was_added_elsewhere_before_leaves_no_trace_either():
+    graph, x, y, _ = traced()
+    _ = x + 2.5
+    both = x * y
+    found: Any = (both + 2.5) - 2.5
+    assert (found.number, found.sign) == (both.number, both.sign)
+
+
 def test_a_sum_of_coordinates_takes_what_each_counts():
     graph, x, y, _ = traced()
     assert graph.linear([], 0.25) == 0.25

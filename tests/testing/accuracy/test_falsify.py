@@ -65,16 +65,17 @@ def test_profiles_change_no_case():
 
 
 def test_a_hunt_is_steered_towards_the_worst_case():
-    worst: list[float] = []
+    cases = st.tuples(*[st.integers(0, 1000)] * 20)
+    drawn: list[int] = []
+    hunted: list[int] = []
 
-    def error(x: float) -> float:
-        worst.append(x)
-        return x
+    def error(*case: int) -> float:
+        hunted.append(sum(case))
+        return float(hunted[-1])
 
-    falsify.hunt(
-        error, st.tuples(st.floats(0, 1, allow_subnormal=False).map(lambda x: x * (1 - x) * 4)), 60
-    )
-    assert max(worst) > 0.999
+    falsify.for_each(cases, 400, lambda case: drawn.append(sum(case)))
+    falsify.hunt(error, cases, 400)
+    assert max(hunted) > 1.1 * max(drawn)
 
 
 def test_the_first_case_that_breaks_a_law_is_raised():
