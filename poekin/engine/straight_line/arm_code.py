@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import llvmlite
 import numpy as np
 
 from ..jit import cache
@@ -36,7 +35,7 @@ def arm_code(
     """The machine code of the program that `make` makes. key: all that it depends on besides
     poekin's source.
     """
-    beside = (LOADED_PROGRAMS, pose, layout, processor(), llvmlite.__version__)
+    beside = (LOADED_PROGRAMS, pose, layout, processor())
     path = cache.entry("arm", (key, beside))
     kept = None if path is None else cache.read(path)
     if kept is None:

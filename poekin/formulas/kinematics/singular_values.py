@@ -7,9 +7,10 @@ Source: Hestenes 1958 (one-sided Jacobi); Demmel and Veselić 1992 (accuracy).
 
 from .. import elementary
 
-NEAR = 1e-16
-"""Square of the cosine of two rows that the sweep which meets it leaves orthogonal to rounding: a
-rotation squares the cosine of the others, and more.
+NEAR = 8e-16
+"""Change of the shorter row's squared length, relative to it, of a rotation whose sweep is the last:
+what the sweep leaves of inner products, since rotations mix them, changes lengths by no more. A small
+angle alone does not tell: rows of nearly equal length turn by large angles to the end.
 """
 _TINY = 1e-300
 
@@ -24,8 +25,9 @@ def orthogonalise(W, rows, columns):
             a = product(W, i, i, columns)
             b = product(W, j, j, columns)
             g = product(W, i, j, columns)
-            is_far = elementary.where_less(NEAR * a * b, g * g, 1.0, is_far)
             cosine, sine = turn(a, b, g)
+            shorter = elementary.where_less(a, b, a, b)
+            is_far = elementary.where_less(NEAR * shorter, abs(sine * g), 1.0, is_far)
             for k in range(columns):
                 x = W[i][k]
                 y = W[j][k]
@@ -47,9 +49,8 @@ def turn(a, b, g):
     b and the inner product g: tan 2θ = 2 g / (b - a).
     """
     d = b - a
-    size = elementary.where_less(d, 0.0, -d, d)
     signed = elementary.where_less(d, 0.0, -2.0 * g, 2.0 * g)
-    tangent = signed / (size + elementary.sqrt(d * d + 4.0 * (g * g)) + _TINY)
+    tangent = signed / (abs(d) + elementary.sqrt(d * d + 4.0 * (g * g)) + _TINY)
     cosine = 1.0 / elementary.sqrt(1.0 + tangent * tangent)
     return cosine, cosine * tangent
 

@@ -43,12 +43,7 @@ def outer(v):
         row = _longer(row, (v[k], v[k + 1], v[k + 1], v[k + 2]))
     c4, s4 = _ratio(column)
     c5, s5 = _ratio(row)
-    return (
-        c4,
-        s4,
-        c5,
-        s5,
-    )
+    return c4, s4, c5, s5
 
 
 def _longer(a, b):

@@ -39,7 +39,12 @@ def test_three_angles_tell_the_other_three(seed):
     assert joints.every(*loop, turned)[2] > 1e-6
 
 
-@given(st.lists(st.floats(-1.0, 1.0), min_size=12, max_size=12))
+# fourth powers of smaller numbers are 0
+@given(
+    st.lists(
+        st.floats(-1.0, 1.0).map(lambda x: x if abs(x) > 1e-75 else 0.0), min_size=12, max_size=12
+    )
+)
 def test_the_longest_column_and_the_longest_row_of_a_vector_tell_its_angles(v):
     V = np.reshape(v, (4, 3))
     columns = [np.linalg.norm(V[:, k]) for k in range(3)]
