@@ -9,7 +9,8 @@ import inspect
 
 import pytest
 
-from poekin.cli.model import takes_models
+from poekin.cli.model import model, takes_models
+from poekin.errors import ModelError
 
 needs_xacro = pytest.mark.skipif(
     importlib.util.find_spec("xacrodoc") is None, reason="xacrodoc is not installed"
@@ -72,6 +73,14 @@ def test_every_command_takes_xacro_when_asked(command, poekin, arm):
     code, out, err = poekin(command, *before, arm, "--xacro", *after)
     assert (code, err) == (0, "")
     assert out
+
+
+@needs_xacro
+@pytest.mark.parametrize("words", [["0"], ["a"]])
+def test_what_is_read_after_a_command_is_evaluated_only_if_asked_again(poekin, arm, words):
+    assert poekin("fk", arm, *words, "--xacro")[0] == (0 if words == ["0"] else 2)
+    with pytest.raises(ModelError, match="xacro evaluates expressions"):
+        model(str(arm))
 
 
 @needs_xacro
