@@ -101,7 +101,7 @@ def test_a_constant_that_is_added_and_taken_away_leaves_no_trace():
 def test_a_constant_that_was_added_elsewhere_before_leaves_no_trace_either():
     _graph, x, y, _ = traced()
     _ = x + 2.5
-    both = x * y
+    both: Any = x * y
     found: Any = (both + 2.5) - 2.5
     assert (found.number, found.sign) == (both.number, both.sign)
 
