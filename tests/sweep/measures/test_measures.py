@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, get_args
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -138,6 +139,23 @@ def test_at_a_singularity_there_is_no_distance_to_it_and_no_exception():
         best = np.asarray(run(Sweep(chain, samples, CELLS, measure)).best)
         # the square of a manipulability is within rounding of 0
         assert 0 <= np.nanmax(best) <= 1e-7
+
+
+@pytest.mark.parametrize("near", [1e-5, 1e-7, 1e-8, 1e-9, 1e-11])
+def test_singular_values_that_nearly_meet_are_told_to_rounding(near):
+    directions = np.eye(3) + near * np.random.default_rng(1).normal(size=(3, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    arm = pk.Chain.from_space([pk.screw.prismatic(v) for v in directions], np.eye(4))
+    J = arm.jacobian([0.0] * 3, frame="hybrid")[3:]
+    with mpmath.workdps(40):
+        largest, _, smallest = map(float, mpmath.svd_r(mpmath.matrix(J.tolist()), compute_uv=False))
+    for measure, expected in (
+        (InverseCondition(), smallest / largest),
+        (SmallestSingularValue(), smallest),
+    ):
+        found = run(Sweep(arm, Random(np.zeros(3), np.zeros(3), 5), CELLS, measure)).best
+        # 64 u of either value
+        assert np.nanmax(np.asarray(found)) == pytest.approx(expected, abs=2 * 64 * 2.0**-53)
 
 
 def test_the_kinds_are_those_of_the_kernel():
