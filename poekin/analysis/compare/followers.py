@@ -13,6 +13,9 @@ from ...model.chain import Chain
 from ..axis_lines import Tolerances, prismatic
 from .alignment.hypotheses import Hypothesis
 
+_NOTHING = 1e-12  # as a ratio
+_INDEPENDENT = 1e-9  # of a joint's row of C
+
 
 class Following(NamedTuple):
     """Text on what a joint follows in a and in b, "" where it moves by itself, and whether they
@@ -34,60 +37,62 @@ def follows(
 ) -> list[Following]:
     """The earlier joints that each joint follows, in both models.
 
-    With directions s of the reading, joint i of b is s_i x_i: so the ratio to joint j is s_i F_ij
-    s_j there.
+    With directions s of the reading, joint i of b is s_i x_i, and its coordinate s_i q_i: so the
+    ratio to joint j is s_i F_ij s_j there.
 
     Parameters: C_a, C_b (n, m), the couplings of the chains a and b, which are at rest. Ratios are
     the same where what a turn of the leading joint (or a metre) makes of them is within tolerance.
     Source: none, x = C q.
     """
-    F = _ratios(C_a)
-    G = reading.directions[:, None] * _ratios(C_b) * reading.directions
-    apart = np.abs(F - G)
+    spare = max(C_a.shape[1], C_b.shape[1])
+    F = _relations(C_a, spare)
+    G = _relations(C_b, spare)
+    s = reading.directions
+    G = s[:, None] * G * np.concatenate([s, s, np.ones(spare)])
     slides = prismatic(a)
     small = np.where(slides, tol.position, tol.rotation)
-    scales = np.where(slides, 1.0, 2 * math.pi)
-    found = []
-    for i, errors in enumerate(apart * scales):
-        differs = bool((errors > small[i]).any())
-        found.append(Following(_words(F, i, a), _words(G, i, b), differs))
-    return found
+    leading = np.where(slides, 1.0, 2 * math.pi)
+    scales = np.concatenate([leading, leading, np.full(spare, 2 * math.pi)])
+    differ = (np.abs(F - G) * scales > small[:, None]).any(axis=1)
+    ours = [_words(terms, i, a) for i, terms in enumerate(F)]
+    theirs = [_words(terms, i, b) for i, terms in enumerate(G)]
+    return [Following(*each) for each in zip(ours, theirs, differ.tolist(), strict=True)]
 
 
-def _ratios(C: Array) -> Array:
-    """F (n, n), x = F x but for constants: the first joints that are independent lead, column j
-    belongs to leader j.
+def _relations(C: Array, spare: int) -> Array:
+    """F (n, 2 n + spare), x = F (x, q) but for constants: the first joints that are independent
+    lead, column j belongs to leader j, column n + j to the coordinate of the same number, and the
+    last ones to coordinates beyond the number of leaders.
     """
     n = len(C)
-    F = np.zeros((n, n))
+    F = np.zeros((n, 2 * n + spare))
+    beside = np.zeros_like(C)
     leaders: list[int] = []
     for i, row in enumerate(C):
         lead = C[leaders]
-        own = np.linalg.lstsq(lead.T, row, rcond=None)[0]
-        rest = np.linalg.norm(row - own @ lead)
-        # beside a coordinate of its own where readings are coupled
-        F[i, leaders] = np.where(np.abs(own) > 1e-12, own, 0.0)
-        if rest > 1e-9 * np.linalg.norm(row):
+        ratios = np.linalg.lstsq(lead.T, row, rcond=None)[0]
+        ratios[np.abs(ratios) <= _NOTHING] = 0.0
+        F[i, leaders] = ratios
+        rest = row - ratios @ lead
+        if np.linalg.norm(rest) > _INDEPENDENT * np.linalg.norm(row):
             leaders.append(i)
-            # Its coordinate may be that of a joint off the chain, which it follows by a ratio of
-            # its own.
-            beside_others = F[i].any()
-            F[i, i] = 1.0
-            if np.count_nonzero(row) == 1:
-                F[i, i] = abs(row.sum())
-            elif beside_others:
-                F[i, i] = rest
+            beside[i] = np.where(np.abs(rest) > _NOTHING, rest, 0.0)
+    moving = np.flatnonzero(C.any(axis=0))
+    columns = [n + i for i in leaders] + list(range(2 * n, 2 * n + spare))
+    F[:, columns[: len(moving)]] = beside[:, moving]
     return F
 
 
-def _words(F: Array, i: int, chain: Chain) -> str:
-    own = F[i, i]
-    others = [j for j in np.flatnonzero(F[i]) if j != i]
-    terms = [f"{F[i, j]:.6g} × {quote(chain.joint_names[j])}" for j in others]
-    if own == 1.0 and not terms:
+def _words(terms: Array, i: int, chain: Chain) -> str:
+    """Text on row i of F."""
+    moved_by = np.flatnonzero(terms)
+    if moved_by.tolist() == [len(chain.screws) + i] and terms[moved_by] == 1.0:
         return ""
-    if own:
-        terms.append(f"{own:.6g} × its coordinate")
-    if not terms:
+    names = [quote(name) for name in chain.joint_names]
+    whose = [f"the coordinate of {name}" for name in names]
+    whose[i] = "its coordinate"
+    whose += ["another coordinate"] * len(terms)
+    found = [f"{terms[j]:.6g} × {(names + whose)[j]}" for j in moved_by]
+    if not found:
         return "does not move"
-    return "follows " + " + ".join(terms)
+    return "follows " + " + ".join(found)

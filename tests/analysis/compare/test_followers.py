@@ -45,11 +45,36 @@ def test_the_first_independent_joints_lead_and_the_others_say_what_they_follow()
     assert not any(differ for _, _, differ in found)
     # A leader may go faster than a coordinate of which no joint is the master.
     assert compared([[3.0], [6.0]], [[-3.0], [1.5]], "rr") == [
-        ("follows 3 × its coordinate", "follows 3 × its coordinate", False),
+        ("follows 3 × its coordinate", "follows -3 × its coordinate", True),
         ("follows 2 × 'a1'", "follows -0.5 × 'b1'", True),
     ]
     assert compared([[0.5]], [[1.0]], "r") == [("follows 0.5 × its coordinate", "", True)]
-    assert [words for words, _, _ in compared([[2.0, 1.0]], [[1.0, 0]], "r")] == [""]
+    assert compared([[2.0, 1.0]], [[1.0, 0]], "r") == [
+        ("follows 2 × its coordinate + 1 × another coordinate", "", True)
+    ]
+
+
+def test_a_coordinate_is_reversed_with_its_joint():
+    assert compared([[1.0]], [[-1.0]], "r") == [("", "follows -1 × its coordinate", True)]
+    assert compared([[1.0]], [[1.0]], "r", [-1]) == [("", "", False)]
+    with_a_sum = [[1, 0], [1, 1]]
+    assert compared(with_a_sum, [[1, 0], [1, -1]], "rr")[1] == (
+        "follows 1 × 'a1' + 1 × its coordinate",
+        "follows 1 × 'b1' + -1 × its coordinate",
+        True,
+    )
+    assert not any(
+        differ for _, _, differ in compared(with_a_sum, [[1, 0], [-1, 1]], "rr", [1, -1])
+    )
+
+
+def test_a_joint_that_another_coordinate_moves_differs():
+    assert compared(np.eye(2), np.eye(2)[::-1], "rr") == [
+        ("", "follows 1 × the coordinate of 'b2'", True),
+        ("", "follows 1 × the coordinate of 'b1'", True),
+    ]
+    # A coordinate of a joint that was dropped does not count.
+    assert not any(differ for _, _, differ in compared([[1, 0, 0], [0, 0, 1]], np.eye(2), "rr"))
 
 
 @pytest.mark.parametrize("kinds, off", [

@@ -34,18 +34,10 @@ def end_turns(
 
     Axes alone cannot tell the two apart: e^{A z} f(x) = f(x + z) in the first joint.
     """
-    if not len(reading.zeros):
-        return
-    first = a.screws[0] * reading.directions[0]
-    last = se3.adjoint(se3.inverse(b.home)) @ b.screws[-1]
-    ends = (
-        ("base", 0, reading.base, first),
-        ("tool", len(b.screws) - 1, reading.tool, last),
-    )
-    for frame, k, T, S in ends:
-        z = turn_about(T, S, tol)
-        if z is not None and not still(T, tol):
-            yield EndTurn(frame, k, z)
+    for end in _moved_ends(a, b, reading, tol):
+        z = turn_about(end.T, end.S, tol)
+        if z is not None:
+            yield EndTurn(end.frame, end.k, z)
 
 
 def with_end_zeros(
@@ -53,24 +45,62 @@ def with_end_zeros(
     reading: Hypothesis,
     tol: Tolerances,
 ) -> Hypothesis:
-    """The reading with a zero offset in place of a base or tool turned about an end joint's axis,
-    where that joint's limits have moved by as much.
+    """The reading with a zero offset of an end joint where the base or tool has moved and this
+    joint's limits say so: in place of a turn about its axis, or beside another motion.
     """
-    for frame, k, z in end_turns(pair.a, pair.b, reading, tol):
-        if _limits_say(pair, reading, k, z, tol):
+    for end in _moved_ends(pair.a, pair.b, reading, tol):
+        if not np.isfinite([pair.a.limits[end.k], pair.b.limits[end.k]]).all():
+            continue
+        z = turn_about(end.T, end.S, tol)
+        frames = reading.frames - 1
+        stays = np.eye(4)
+        if z is None:
+            z = _shift_of_limits(pair, reading, end.k)
+            frames = reading.frames
+            stays = se3.exp(-z * end.S) @ end.T
+        if _limits_say(pair, reading, end.k, z, tol):
             zeros = reading.zeros.copy()
             offset = reading.offset.copy()
-            zeros[k] += z
-            offset[k] = True
-            stays = {frame: np.eye(4)}
+            zeros[end.k] += z
+            offset[end.k] = True
             reading = replace(
-                reading,
-                zeros=zeros,
-                offset=offset,
-                frames=reading.frames - 1,
-                **stays,
+                reading, zeros=zeros, offset=offset, frames=frames, **{end.frame: stays}
             )
     return reading
+
+
+class _End(NamedTuple):
+    """A frame, "base" or "tool", that moved by T beside joint k, the first or the last, of screw
+    S.
+    """
+
+    frame: str
+    k: int
+    T: Array
+    S: Array
+
+
+def _moved_ends(
+    a: Chain,
+    b: Chain,
+    reading: Hypothesis,
+    tol: Tolerances,
+) -> list[_End]:
+    if not len(reading.zeros):
+        return []
+    first = a.screws[0] * reading.directions[0]
+    last = se3.adjoint(se3.inverse(b.home)) @ b.screws[-1]
+    ends = [
+        _End("base", 0, reading.base, first),
+        _End("tool", len(b.screws) - 1, reading.tool, last),
+    ]
+    return [end for end in ends if not still(end.T, tol)]
+
+
+def _shift_of_limits(pair: Matched, reading: Hypothesis, k: int) -> float:
+    """The zero offset of joint k, beside the reading's, with which its middle is a's."""
+    theirs = (pair.b.limits[k] - reading.zeros[k]).mean()
+    return float(theirs - reading.directions[k] * pair.a.limits[k].mean())
 
 
 def _limits_say(
@@ -84,8 +114,7 @@ def _limits_say(
     small = tol.rotation
     if pair.b.kinds[k] == "prismatic":
         small = tol.position
-    ours = pair.a.limits[k]
-    if not np.isfinite(ours).all() or abs(z) <= small:
+    if abs(z) <= small:
         return False
     misses = [_apart(pair, reading, k, shift) for shift in (z, 0.0)]
     return bool(misses[0] <= small < misses[1])

@@ -37,9 +37,36 @@ class Matched(NamedTuple):
 
 
 def matched(a: Chain, b: Chain, asked: Asked) -> Matched | None:
-    """Both chains at rest, the longer one without the joints that can be dropped; None where none
-    can.
+    """Both chains at rest, the longer one without the joints that can be dropped, b's joints in the
+    directions that its coordinates have in a's; None where none can.
     """
+    found = _in_order(a, b, asked)
+    if found is None:
+        return None
+    signs = leading_signs(found.C_a) * leading_signs(found.C_b)
+    if (signs > 0).all():
+        return found
+    limits = np.sort(signs[:, None] * found.b.limits)
+    b = found.b.replace(screws=signs[:, None] * found.b.screws, limits=limits)
+    x_a, x_b = found.both
+    return found._replace(
+        b=b, C_b=signs[:, None] * found.C_b, y=signs * found.y, both=(x_a, signs * x_b)
+    )
+
+
+def leading_signs(C: Array) -> Array:
+    """1 or -1 (n,) for each joint: the sign by which it follows the first of the coordinates that no
+    joint before it follows; 1 where there are none.
+    """
+    first = np.cumsum(C != 0, axis=0) == 1
+    signs = np.ones(len(C))
+    # the first column last, as it is the one that stays
+    for k in reversed(range(C.shape[1])):
+        signs = np.where(first[:, k] & (C[:, k] != 0), np.sign(C[:, k]), signs)
+    return signs
+
+
+def _in_order(a: Chain, b: Chain, asked: Asked) -> Matched | None:
     one = uncoupled_at_zero(a)
     other = uncoupled_at_zero(b)
     count = max(LEAST, asked.samples)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from poekin.analysis.compare.compare import compare
+from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
 
@@ -75,3 +76,43 @@ def test_limits_that_moved_by_another_amount_count_beside_the_frame():
     result = compare(chain, chain.rezeroed([0.1, 0, 0, 0]).replace(limits=limits), samples=3)
     assert "the base frame is turned" in result.verdict
     assert "its lower limit 11.46° lower in model b" in result.verdict
+
+
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+@pytest.mark.parametrize("end", [0, 3])
+@pytest.mark.parametrize("way", [1.0, -1.0])
+@pytest.mark.parametrize("moved", ["base", "tool", "base and tool"])
+def test_the_limits_say_it_beside_any_motion_of_base_and_tool_too(kind, end, way, moved):
+    """A base that is a free choice does not make limits differ that moved with their zero."""
+    kinds = ["revolute", "revolute"]
+    kinds[bool(end)] = kind
+    chain = chain_of_kinds(*kinds)
+    signs = np.where(np.arange(4) == end, way, 1.0)
+    q = 0.1 * signs * (np.arange(4) == end)
+    other = chain.replace(
+        screws=signs[:, None] * chain.screws, limits=np.sort(signs[:, None] * chain.limits)
+    ).rezeroed(q)
+    motion = se3.exp([0.2, 0.1, -0.3, 0.1, 0, 0.2])
+    if "base" in moved:
+        other = other.rebased(motion)
+    if "tool" in moved:
+        other = other.retooled(motion)
+    result = compare(chain, other, samples=3, same=("limits",))
+    assert result.outcome == "same"
+    joint = result.joints[end]
+    assert joint.limits == pytest.approx((0, 0), abs=1e-12)
+    assert joint.zero_offset == pytest.approx(-q[end], abs=1e-12)
+    frames = {"base": result.base, "tool": result.tool}
+    for frame, T in frames.items():
+        assert np.allclose(T, np.eye(4), atol=1e-12) == (frame not in moved)
+    assert result.after.worst_position < 1e-12
+
+
+def test_limits_that_moved_by_unlike_amounts_leave_the_zero_where_it_is():
+    chain = chain_of_kinds("revolute", "revolute")
+    limits = chain.limits.copy()
+    limits[0] += [-0.2, -0.1]
+    other = chain.replace(limits=limits).rebased(se3.exp([0.2, 0.1, -0.3, 0.1, 0, 0]))
+    result = compare(chain, other, samples=3)
+    assert not any(joint.zero_differs for joint in result.joints)
+    assert result.joints[0].limits == pytest.approx((-0.2, -0.1), abs=1e-12)

@@ -8,7 +8,7 @@ import pytest
 from benchmarks.planted_changes import random_arm
 from poekin.analysis.compare.compare import compare
 from poekin.analysis.compare.differences.conventions import BUT_NAMES, Asked
-from poekin.analysis.compare.differences.matching import matched
+from poekin.analysis.compare.differences.matching import leading_signs, matched
 from poekin.formats.load import load
 from poekin.model import screw
 from poekin.model.chain import Chain
@@ -50,3 +50,44 @@ def test_a_joint_has_the_number_that_it_has_in_a_though_one_before_it_is_dropped
     assert (joint.number, joint.name_a) == (wrist, "wrist_1_joint")
     assert f"; joint {wrist} ('wrist_1_joint') has its zero 5.73° elsewhere" in result.verdict
     assert f"the axis of joint {end} ('wrist_3_joint') is the same" in compared(6).alternatives[0]
+
+
+def test_a_joint_leads_by_the_sign_of_the_first_coordinate_that_none_before_it_follows():
+    C = np.array([[-1, 0, 0], [2, 0, 0], [1, 3, -1], [0, 0, -1], [0, 0, 0]], float)
+    assert leading_signs(C).tolist() == [-1, 1, 1, 1, 1]
+    assert leading_signs(-C).tolist() == [1, 1, -1, 1, 1]
+
+
+@pytest.mark.parametrize("chain", [
+    random_arm(7, ("revolute", "prismatic", "helical", "revolute")),
+    load("ur5e").chain(),
+])  # fmt: skip
+def test_a_coordinate_that_moves_its_joint_the_other_way_is_a_sign_of_q(chain):
+    """And, with the joint's screw reversed beside that, nothing: f(q) is the same."""
+    name = chain.joint_names[1]
+    backwards = chain.coupled(f"{name} = -{name}")
+    for a, b in ((chain, backwards), (backwards, chain)):
+        result = compare(a, b, samples=5)
+        assert result.outcome == "conventions"
+        assert f"joint 2 ({name!r}) has the sign of q flipped" in result.verdict
+        assert result.before.worst_position > 0.01
+        assert result.after.worst_position < 1e-14
+        assert [joint.reversed for joint in result.joints].count(True) == 1
+        assert not any(any(joint.limits) for joint in result.joints)
+    signs = np.where(np.arange(len(chain.screws)) == 1, -1.0, 1.0)[:, None]
+    same = chain.replace(
+        screws=signs * chain.screws, coupling=np.diag(signs[:, 0]), q_names=chain.q_names
+    )
+    result = compare(chain, same, samples=5)
+    assert (result.outcome, result.before.worst_position < 1e-14) == ("same", True)
+
+
+def test_a_joint_that_the_coordinate_of_another_moves_differs():
+    arm = load("ur5e").chain()
+    swapped = ["elbow_joint = wrist_1_joint", "wrist_1_joint = elbow_joint"]
+    result = compare(arm, arm.coupled(swapped), samples=5)
+    assert result.outcome == "differ"
+    assert (
+        "joint 3 ('elbow_joint') moves by itself in one model and follows 1 × the coordinate of"
+        " 'wrist_1_joint' in the other"
+    ) in result.verdict
