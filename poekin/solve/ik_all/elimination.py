@@ -13,6 +13,7 @@ from ...model.geometry.hp import HPForm
 
 _ASKED = 48
 _FOUND = 1e-6  # rad
+_INEXACT = 0.1  # rad, of a root that is to be tried
 _OFTEN = 0.5  # of the poses asked
 
 
@@ -20,8 +21,8 @@ class EliminatedRows(NamedTuple):
     """Solutions of targets, before they are tried down to rounding.
 
     Attributes: branches (N, 16, 7), coordinates q, rad, NaN in rows that hold none, and a margin,
-    the slope of the polynomial at the root as a share of the largest, 0 at a double root and -1
-    without a root; sure (N,), whether the number of roots is beyond doubt to rounding:
+    the slope of the polynomial at the root as a share of the largest, 0 at what may be a double root,
+    which is to be tried, and -1 without a root; sure (N,), whether the number of roots is beyond doubt to rounding:
     all of them are solutions, simple, and even in number.
     """
 
@@ -86,7 +87,8 @@ class Elimination:
         """
         first, *more = self.tables
         found = _rows(first, T)
-        others = []
+        doubted = np.flatnonzero(~found.sure)
+        others = [(doubted, EliminatedRows(found.branches[doubted], found.sure[doubted]))]
         for table in (*more, *map(_by_quarters, self.tables)):
             unsure = np.flatnonzero(~found.sure)
             if not len(unsure):
@@ -96,29 +98,34 @@ class Elimination:
             for whole, part in zip(found, other, strict=True):
                 whole[unsure[other.sure]] = part[other.sure]
         for which, other in others:
-            left = ~found.sure[which]
+            left = ~other.sure
             if left.any():
                 _join(found, which[left], other, left)
         return found
 
 
 def _join(found: EliminatedRows, which: np.ndarray, other: EliminatedRows, own: np.ndarray) -> None:
-    """Adds the solutions of some targets that another table has found, as far as there is room."""
-    branches = found.branches[which]
-    q = branches[:, :, :-1]
-    margin = branches[:, :, -1]
-    others = other.q[own]
-    margins = other.margin[own]
-    target = np.arange(len(which))
-    # solutions are in the first rows
-    for row in range((margins >= 0.0).sum(axis=1).max()):
-        off = _apart(q, others[:, row, None])
-        is_known = ((off < _FOUND) & (margin >= 0.0)).any(axis=1)
-        free = np.argmin(margin, axis=1)
-        added = (margins[:, row] >= 0.0) & ~is_known & (margin[target, free] < 0.0)
-        q[added, free[added]] = others[added, row]
-        margin[added, free[added]] = margins[added, row]
-    found.branches[which] = branches
+    """Adds the solutions of some targets that another table has found, as far as there is room; of
+    targets whose number of solutions is sure those alone that are near to none.
+    """
+    one = EliminatedRows(found.branches[which], found.sure[which])
+    others = EliminatedRows(other.branches[own], other.sure[own])
+    for row in np.flatnonzero(_new(one, others).any(axis=0)).tolist():
+        added = EliminatedRows(others.branches[:, row : row + 1], others.sure)
+        target = np.flatnonzero(_new(one, added))
+        free = np.argmin(one.margin[target], axis=1)
+        has_room = one.margin[target, free] < 0.0
+        target = target[has_room]
+        one.branches[target, free[has_room]] = others.branches[target, row]
+    found.branches[which] = one.branches
+
+
+def _new(known: EliminatedRows, others: EliminatedRows) -> np.ndarray:
+    """Which of the others' solutions are not known."""
+    near = np.where(known.sure[:, None] | (others.margin == 0.0), _INEXACT, _FOUND)
+    off = _apart(known.q[:, None], others.q[:, :, None])
+    is_known = ((off < near[:, :, None]) & (known.margin >= 0.0)[:, None]).any(axis=2)
+    return (others.margin >= 0.0) & ~is_known
 
 
 def elimination(chain: Chain) -> Elimination | None:

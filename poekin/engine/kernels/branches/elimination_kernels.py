@@ -45,11 +45,12 @@ DEGENERATE = -1
 
 _NOISE = 1e-6  # of the largest coefficient: of more, nothing is known
 # two coefficients tell the noise of the others by chance only, and it is not below rounding
-_SPREAD = 16.0
-_ROUNDING = 5e-14
+_SPREAD = 128.0
+_ROUNDING = 2e-11
 _SHARPENED = 4
 _FLAT = 1e-6  # of the largest slope
 _CLOSE = 1e-7  # rad, and of the arm's size: a line that ends farther off is no solution's
+_NEAR = 1e-2
 _SAME = 1e-7  # rad
 _STRETCH = 0.2
 _TANGENT = math.tan(0.125 * math.pi + 5e-4)  # of half of a view's quarter, and of some more
@@ -138,11 +139,14 @@ def _pass(arm, one, view, scratch, rows, count):
         some = min(kept - first, lanes.at_once())
         _sharpen(one, view, scratch, first, some)
         for k in range(some):
-            if not _value(scratch.solved, GAP, k) <= _CLOSE or count >= rows.shape[0]:
-                unsure = True
-            else:
+            gap = _value(scratch.solved, GAP, k)
+            is_close = gap <= _CLOSE
+            unsure = unsure or not is_close or count >= rows.shape[0]
+            # an inexact double root is to be tried, a root of no solution is not
+            if gap <= _NEAR and count < rows.shape[0]:
                 _set(arm, rows[count], scratch.angles, k)
-                rows[count, 6] = abs(scratch.found[2 * _ROOM + first + k]) / steepest
+                slope = abs(scratch.found[2 * _ROOM + first + k]) / steepest
+                rows[count, 6] = slope if is_close else 0.0
                 if _is_new(rows, count):
                     count += 1
                 elif is_whole:

@@ -148,9 +148,10 @@ def test_a_determinant_that_is_noise_is_degenerate(size, noise, count, monkeypat
 
 
 @pytest.mark.parametrize(
-    ("size", "noise", "zero"), [(100.0, 0.99e-4, 16 * 0.99e-4), (2.0, 1e-15, 1e-13), (2.0, 1e-12, 16e-12)]
-)  # fmt: skip
-def test_what_is_zero_is_sixteen_times_the_noise_or_rounding(size, noise, zero, monkeypatch):
+    ("size", "noise", "zero"),
+    [(100.0, 0.99e-4, 128 * 0.99e-4), (2.0, 1e-15, 4e-11), (2.0, 1e-12, 128e-12)],
+)
+def test_what_is_zero_is_so_many_times_the_noise_or_rounding(size, noise, zero, monkeypatch):
     for view, is_whole in ((WHOLE, True), (QUARTER, False)):
         one = Passed(monkeypatch, [0.0], size=size, noise=noise, view=view)
         assert one.asked == (pytest.approx(zero, rel=1e-12, abs=0.0), 4.0, is_whole)
@@ -159,8 +160,8 @@ def test_what_is_zero_is_sixteen_times_the_noise_or_rounding(size, noise, zero, 
 
 def test_what_leaves_it_unsure_whether_there_are_other_solutions(monkeypatch):
     for gaps, said in (
-        ([1e-7, 0.0], (2, False, False)), ([1.1e-7, 0.0], (1, True, False)), ([0.0, math.nan], (1, True, False)),
-        ([0.0, 1e-6, 0.0], (2, True, False)),
+        ([1e-7, 0.0], (2, False, False)), ([1.1e-7, 0.0], (2, True, False)), ([0.0, math.nan], (1, True, False)),
+        ([0.0, 1e-2, 0.0], (3, True, False)), ([0.0, 1.1e-2, 0.0], (2, True, False)),
     ):  # fmt: skip
         assert Passed(monkeypatch, gaps).said == said
     assert Passed(monkeypatch, [0.0] * 4, room=3).said == (3, True, False)
@@ -173,6 +174,14 @@ def test_what_leaves_it_unsure_whether_there_are_other_solutions(monkeypatch):
     assert Passed(monkeypatch, full[1:], room=40).said == (ROOM - 1, False, False)
     for slope, is_flat in ((3.9e-6, True), (4.1e-6, False)):
         assert Passed(monkeypatch, [0.0], slope=slope).said == (1, False, is_flat)
+
+
+def test_a_root_whose_line_is_off_by_less_than_a_hundredth_is_to_be_tried(monkeypatch):
+    """Its margin is 0: a double root is known to the square root of rounding alone."""
+    rows = Passed(monkeypatch, [1e-7, 1.1e-7, 1e-2, 0.0]).rows
+    assert (rows[:4, 6] > 0).tolist() == [True, False, False, True]
+    assert rows[1:3, 6].tolist() == [0, 0]
+    np.testing.assert_allclose(rows[1:3, 0], [0.09, 0.18], atol=1e-15)
 
 
 def filled(monkeypatch, results, quarters=1, is_first=True, is_fixed=True):
