@@ -181,6 +181,21 @@ def test_a_coupled_chain_gives_the_table_of_its_joints():
     assert result.error <= result.bound
 
 
+@pytest.mark.parametrize(
+    "coupling", ["joint3 = -joint3", "joint3 = 2 joint3", ["joint2 = joint3", "joint3 = joint2"]]
+)
+def test_a_coupling_of_one_reading_a_joint_stays_in_the_table(coupling):
+    chain = pk.load("puma560").chain().coupled(coupling)
+    q = np.linspace(-1, 1, chain.dof)
+    result = dh.from_chain(chain, convention="standard")
+    np.testing.assert_allclose(dh.to_chain(result.table).fk(q), chain.fk(q), rtol=0, atol=1e-14)
+    assert result.warnings == ()
+    moved = dh.from_chain(chain.replace(offset=0.1 * np.eye(chain.dof)[0]), convention="standard")
+    [warning] = moved.warnings
+    assert warning.startswith("the coupling of readings is left out: with offsets c")
+    assert moved.table.coupling == ()
+
+
 def test_a_table_s_result_says_what_it_chose_and_becomes_plain_data():
     result = dh.from_chain(pk.load("stanford").chain(), convention="modified")
     lines = str(result).splitlines()

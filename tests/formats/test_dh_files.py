@@ -89,6 +89,11 @@ def test_semicolons_and_decimal_commas_of_a_spreadsheet_are_read(tmp_path):
     assert table.tool[0, 3] == 0.5
 
 
+def test_empty_lines_of_a_spreadsheet_are_passed_over():
+    text = "convention,theta,d,a,alpha,lower\n,,,, ,\nstandard,0,1,0,0,\n,,,,,\nstandard,0,2,0,0,\n,,,,,\n"
+    assert table_io.read_text(text, "a.csv").d.tolist() == [1, 2]
+
+
 def test_columns_of_a_csv_may_stand_in_any_order():
     text = "d,a,alpha,theta,convention\n0.1,0.2,0.3,0.4,standard\n"
     assert table_io.read_text(text, "t.csv") == Table(

@@ -175,6 +175,11 @@ def from_chain(
         away = sum(lengths) + norm(translation_part(table.tool)) + chain.kinds.count("prismatic")
         bound += 2 * sum(walk.dropped) * max(1.0, away / chain.reach)
     error = _error(chain, table, samples, seed)
+    readings = own_readings(chain)
+    if readings is not None and chain.offset.any():
+        walk.warnings.append(
+            "the coupling of readings is left out: with offsets c, x = K r + c, a table cannot say it"
+        )
     return FromChain(
         _with_coupling(table, chain),
         tuple(walk.gauge),

@@ -250,13 +250,15 @@ class _CsvTable:
             keys.value(column)
 
     def take(self, record: dict[Any, Any], line: str) -> None:
-        """Take a row or a pose; line is what messages call it."""
+        """Take a row or a pose, of an empty line nothing; line is what messages call it."""
         if None in record or None in record.values():
             got = sum(record[column] is not None for column in self.header)
             got += len(record.get(None, ()))
             raise ModelError(
                 f"{line}: expected {len(self.header)} columns as in the header, got {got}"
             )
+        if not any(cell.strip() for cell in record.values()):
+            return
         kind = record.get("kind") or "revolute"
         posed = kind in ("base", "tool")
         if record["convention"] or not posed:  # of a pose it may be left out

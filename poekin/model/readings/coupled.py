@@ -46,15 +46,14 @@ def with_readings(chain: AnyChain, K: Array, names: tuple[str, ...]) -> AnyChain
 
 def own_readings(chain: ChainData) -> Array | None:
     """K (n, n) of readings of the joints' own names, in the order of the joints, that these follow,
-    x = K r + c; None where each joint follows one coordinate, or coordinates of other names.
+    x = K r + c; None where each is its own reading, or coordinates have other names.
     """
     C = chain.nontrivial_coupling
-    if C is None or not (np.count_nonzero(C, axis=1) > 1).any():
-        return None
-    if sorted(chain.q_names) != sorted(chain.joint_names):
+    if C is None or sorted(chain.q_names) != sorted(chain.joint_names):
         return None
     columns = [chain.q_names.index(name) for name in chain.joint_names]
-    return C[:, columns]
+    K = C[:, columns]
+    return None if np.array_equal(K, np.eye(len(K))) else K
 
 
 def own_limits(chain: ChainData) -> Array:

@@ -307,7 +307,10 @@ def test_own_readings_are_told_from_other_coordinates():
     coupled = ARM.coupled("J3 = J2 + J3")
     np.testing.assert_array_equal(own_readings(coupled), coupled.coupling)
     assert own_readings(ARM) is None
-    assert own_readings(ARM.replace(coupling=2 * np.eye(6))) is None
+    np.testing.assert_array_equal(own_readings(ARM.replace(coupling=-np.eye(6))), -np.eye(6))
+    assert own_readings(ARM.replace(coupling=np.eye(6))) is None
+    order = ARM.q_names[::-1]
+    assert own_readings(ARM.replace(coupling=np.eye(6)[::-1], q_names=order)) is None
     assert own_readings(coupled.replace(q_names=list("abcdef"))) is None
     names = coupled.q_names[::-1]
     turned = coupled.replace(coupling=coupled.coupling[:, ::-1], q_names=names, limits=None)
