@@ -85,7 +85,7 @@ def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
         )
     root = xml.parse(data, name, tell=False)  # refuses what is not safe before it is evaluated
     values = {key: _text(key, value) for key, value in arguments.items()}
-    result = _evaluated(name, root.get("name"), values)
+    result = _evaluated(name, root, values)
     if "<link" not in result and next(root.iter(_MACRO), None) is not None:
         raise ModelError(
             f"{Source(name).place()}: xacro: the file defines macros only, and no robot: "
@@ -114,18 +114,22 @@ def _text(key: str, value: Any) -> str:
 
 def _evaluated(
     name: str,
-    robot: str | None,
+    root: xml.Element,
     values: dict[str, str],
 ) -> str:
-    """URDF text of an evaluated file; robot is the name on its root element, if there is one."""
+    """URDF text of an evaluated file with this root element."""
     xacrodoc, xacro_ = _evaluators()
     # Included from another document, by its whole path, the file is where its own includes are
     # relative to. `$` and what stands for other characters in patterns must not mean anything
     # there.
     whole = glob.escape(os.path.abspath(name)).replace("${", "$${").replace("$(", "$$(")
-    namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
     include = f"<xacro:include filename={quote_attribute(whole, 'file')}/>"
-    text = f"<robot name={quote_attribute(robot or '', 'robot')} {namespace}>{include}</robot>"
+    attributes = ['xmlns:xacro="http://www.ros.org/wiki/xacro"']
+    for key in ("name", "version"):
+        value = root.get(key)
+        if value is not None:
+            attributes.append(f"{key}={quote_attribute(value, key)}")
+    text = f"<robot {' '.join(attributes)}>{include}</robot>"
     refusals = (
         xacro_.XacroException,
         xacrodoc.packages.PackageNotFoundError,

@@ -196,7 +196,10 @@ class ChainData:
         return ScrewForm(self.screws @ se3.adjoint(se3.inverse(self.home)).T, self.home)
 
     def is_angle(self, k: int) -> bool:
-        """Whether a coordinate is an angle, rad, and no length, m: the first joint it moves turns.
+        """Whether a coordinate is an angle, rad, and no length, m.
+
+        It has the unit of the joint of its name where it moves that one, else of the first joint it
+        moves.
 
         Parameters
         ----------
@@ -209,8 +212,11 @@ class ChainData:
             True for an angle, and where no joint follows the coordinate.
         """
         C = self.nontrivial_coupling
-        followers = [k] if C is None else np.flatnonzero(C[:, k])
-        return not len(followers) or self.kinds[followers[0]] != "prismatic"
+        followers = [k] if C is None else np.flatnonzero(C[:, k]).tolist()
+        if not followers:
+            return True
+        named = (i for i in followers if self.joint_names[i] == self.q_names[k])
+        return self.kinds[next(named, followers[0])] != "prismatic"
 
     def replace(self, **changes: Any) -> Self:
         """Copy with some parameters changed.

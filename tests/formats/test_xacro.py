@@ -79,6 +79,19 @@ def test_truth_values_are_xacros(tmp_path):
 
 
 @needs_xacro
+def test_the_version_of_the_root_element_stays(tmp_path):
+    """Without it URDF has no quat_xyzw."""
+    text = ARM[ARM.index("<joint") :].replace('rpy="${pi/2} 0 0"', 'quat_xyzw="0 0 ${s} ${s}"')
+    (tmp_path / "arm.xacro").write_text(
+        f'<robot version="1.1" {HEAD.removeprefix("<robot ")}<xacro:arg name="length" default="1"/>'
+        '<xacro:property name="height" value="2"/><xacro:property name="s" value="${sqrt(0.5)}"/>'
+        f'<link name="a"/><link name="b"/>{text}'
+    )
+    R = xacro(tmp_path / "arm.xacro").joints[0].origin[:3, :3]
+    assert abs(R - [[0, -1, 0], [1, 0, 0], [0, 0, 1]]).max() < 1e-15
+
+
+@needs_xacro
 def test_a_path_of_special_characters_is_a_path(tmp_path):
     folder = tmp_path / 'a [1] ${x} $(find y) "q" & *'
     folder.mkdir()

@@ -12,6 +12,7 @@ from poekin.errors import InputError, ShapeError
 from poekin.model.chain_data import ChainData
 from poekin.model.geometry import idealise, other_frames
 from poekin.model.geometry.structure import structure
+from poekin.model.joint import Mimic
 from poekin.model.kinematics import pose_jacobian
 from poekin.testing.strategies import chain_strategies
 
@@ -175,6 +176,17 @@ def test_a_coordinate_is_an_angle_where_the_first_joint_that_follows_it_turns():
         [TURN, SLIDE], MOVED, coupling=[[0, 2], [3, 0]], q_names=["s", "t"]
     )
     assert [crossed.is_angle(k) for k in range(2)] == [False, True]
+
+
+def test_a_coordinate_has_the_unit_of_its_joint_in_either_direction():
+    """A slide that follows a turning joint by m/rad comes first on the way back."""
+    turn = pk.Joint("turn", "revolute", "a", "b", np.eye(4), [0, 0, 1])
+    rack = pk.Joint("rack", "prismatic", "b", "c", np.eye(4), [0, 1, 0], mimic=Mimic("turn", 0.02))
+    robot = pk.Robot("rack", ["a", "b", "c"], [turn, rack])
+    for base, tip in (("a", "c"), ("c", "a")):
+        chain = robot.chain(base=base, tip=tip)
+        assert chain.q_names == ("turn",)
+        assert chain.is_angle(0)
 
 
 def test_masses_say_nothing_of_where_an_arm_is_and_are_left_out_with_new_screws():

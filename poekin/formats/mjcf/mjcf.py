@@ -123,6 +123,10 @@ def _read(data: str | bytes, name: str, path: str = "") -> Robot:
         # What comes of numbers too large is refused as a joint's origin.
         with np.errstate(all="ignore"):
             robot, said = ModelReader(model).robot(bodies, sites, title, source, other)
+    except UnicodeDecodeError as fault:
+        raise ModelError(
+            f"{source.place()}: MuJoCo reads UTF-8 only, and a name is in another encoding: {fault}"
+        ) from fault
     except PoekinError as fault:
         raise ModelError(
             f"{source.place()}: {str(fault).removeprefix(f'{source.place()}: ')}"
@@ -166,6 +170,7 @@ def compiled(
 
 def _parsed(MjSpec: Any, data: str | bytes, path: str) -> Any:
     if path:
+        path.encode()  # which of another path says why MuJoCo cannot open it
         return MjSpec.from_file(path)
     if isinstance(data, str):
         return MjSpec.from_string(data)

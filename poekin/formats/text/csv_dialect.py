@@ -21,6 +21,8 @@ _SAID = re.compile(r"sep=([;,\t])", re.IGNORECASE)
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d*(?:[eE][+-]?\d+)?\s*")
 # not where it is the name of a column
 _COMMENT = re.compile(r"\s*(?:#+|//|%)(?!\s*[,;\t])\s?")
+_BEFORE_UNIT = re.compile(r"\s+(?=[\[(])")
+_UNIT = re.compile(r"\s*[\[(][^\])]*[\])]$")
 _THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}\s*")
 
 
@@ -60,7 +62,7 @@ def split(lines: Iterator[str], where: str, names: Sequence[str] = ()) -> Iterat
         separator = separator_of(first, names)
         lines = itertools.chain([first], lines)
     if separator == " ":
-        lines = (" ".join(line.split()) for line in lines)
+        lines = (" ".join(_BEFORE_UNIT.sub("", line).split()) for line in lines)
     reader = csv.reader(lines, delimiter=separator, strict=True)
     rows = _numbered(reader, before, where)
     if separator in ";\t":
@@ -76,7 +78,8 @@ def separator_of(line: str, names: Sequence[str] = ()) -> str:
     # a tab beside a comma is a blank
     if "\t" in re.sub(", *\t|\t *,", ",", bare).strip("\t"):
         return "\t"
-    if "," in bare or line.strip() in names or len(bare.split()) < 2:
+    one_name = _UNIT.sub("", line.strip()) in names
+    if "," in bare or one_name or len(_BEFORE_UNIT.sub("", bare).split()) < 2:
         return ","
     return " "
 

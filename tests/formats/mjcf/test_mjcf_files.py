@@ -236,3 +236,29 @@ def test_what_mujoco_warns_of_is_written_nowhere(folder, capfd):
     assert os.listdir(there) == ["a.xml"]
     assert capfd.readouterr().err == ""
     assert mujoco.get_mju_user_warning() is before
+
+
+def test_names_in_another_encoding_are_refused_as_mujoco_reads_utf_8_only(tmp_path):
+    text = '<mujoco><worldbody><body name="\xfc"><geom size=".1"/></body></worldbody></mujoco>'
+    path = tmp_path / "l.xml"
+    path.write_bytes(b'<?xml version="1.0" encoding="iso-8859-1"?>' + text.encode("latin-1"))
+    with pytest.raises(
+        ModelError, match=r"l\.xml: MuJoCo reads UTF-8 only, and a name is in another"
+    ):
+        load(path)
+    path.write_text(text, encoding="utf-8")
+    assert load(path).links[-1] == "\xfc"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="paths are Unicode there")
+def test_a_path_that_is_no_utf_8_is_refused(tmp_path):
+    folder = os.fsencode(tmp_path) + b"/\xff"
+    try:
+        os.mkdir(folder)
+    except OSError as fault:
+        pytest.skip(f"this file system: {fault}")
+    path = os.fsdecode(folder + b"/m.xml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write('<mujoco><worldbody><body name="a"/></worldbody></mujoco>')
+    with pytest.raises(ModelError, match=r"m\.xml: MuJoCo refuses this model: 'utf-8' codec can't"):
+        load(path)

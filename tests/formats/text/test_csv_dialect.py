@@ -100,6 +100,15 @@ def test_a_line_that_is_a_name_with_blanks_is_one_cell():
     assert read("my joint\n0.5\n", ("my joint",)) == [[0.5]]
 
 
+def test_a_unit_behind_a_blank_belongs_to_the_name_before_it():
+    for unit in ("[deg]", "(deg)"):
+        for name in ("q", "my joint"):
+            rows = csv_dialect.split(iter([f"{name} {unit}\n", "30\n"]), "f.csv", (name,))
+            assert list(rows) == [(1, [f"{name} {unit}"]), (2, ["30"])]
+        rows = csv_dialect.split(iter([f"a {unit}  b {unit} c\n", "1 2 3\n"]), "f.csv")
+        assert list(rows) == [(1, [f"a{unit}", f"b{unit}", "c"]), (2, ["1", "2", "3"])]
+
+
 def test_names_with_a_semicolon_are_written_so_that_they_are_read():
     text = csv_rows.text(["a;b", "c"], np.array([[1.5, 2.0]]))
     assert text == '"a;b","c"\n1.5,2.0\n'
