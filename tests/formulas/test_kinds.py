@@ -250,6 +250,7 @@ CASES = [
     (rotation_onto.rotated, (0.0, 0.6, 0.8), 0.28, 0.96, V),
     *[(rounding.is_rounding, x, 1.0) for x in (0.0, 0.5)],
     *[(rounding.least, x, 1.0) for x in (0.5, 1.5)],
+    *[(rounding.told, row, 2.0) for row in (CIRCLES[0], (0.0, 0.0, 0.0, 0.0, 0.5))],
     (three_parallel.outer, UR_AXES, UR_STEPS, R1, REACHED),
     (
         three_parallel.inner,

@@ -13,8 +13,10 @@ circles (`two_circles`), which x_2 turns onto each other. Accuracy: that of `two
 """
 
 from ...algebra import add, cross, dot, subtract
+from .. import elementary
 from . import two_circles
 from .rotation_onto import rotated, rotation_onto
+from .rounding import told
 
 
 def turned_component(w, k, a):
@@ -38,6 +40,9 @@ def roots(h, P, p):
     squares = squares - dot(P[1], P[1])
     squares = squares - dot(P[2], P[2])
     distances = _equation(h, P, p, (P[0], P[1]), 1.0, 0.5 * squares)
+    terms = dot(p, p) + dot(P[0], P[0]) + dot(P[1], P[1]) + dot(P[2], P[2])
+    heights = told(heights, elementary.sqrt(terms))
+    distances = told(distances, terms)
     first, second, third, fourth = two_circles.roots(heights, distances)
     return (
         _with_second(h, P, p, first),

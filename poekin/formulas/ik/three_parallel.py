@@ -14,10 +14,11 @@ the triangle of the parallel axes. Accuracy: that of `two_circles`
 """
 
 from ...algebra import add, dot, rotate, subtract, unrotate
+from .. import elementary
 from . import circle_line, two_circles
 from .position import turned_component
 from .rotation_onto import rotated, rotation_onto
-from .rounding import least
+from .rounding import least, told
 
 
 def outer(h, P, R, p):
@@ -29,6 +30,9 @@ def outer(h, P, R, p):
     last = rotate(R, h[5])
     directions = _along_second(h, last, h[5], 0.0 * height)
     heights = _along_second(h, p, P[5], height)
+    terms = dot(p, p) + dot(between, between) + dot(P[5], P[5])
+    directions = told(directions, 1.0 + 0.0 * height)
+    heights = told(heights, elementary.sqrt(terms))
     return two_circles.roots(directions, heights)
 
 

@@ -357,3 +357,54 @@ def test_no_solution_at_right_angles_is_missed(name, joints):
             solutions = result.of(k)
             assert len(solutions)
             assert arms.apart(chain, solutions[None], q[k : k + 1]) <= 1e-4
+
+
+QUARTER = np.pi / 2
+AT_RIGHT_ANGLES = {
+    "two circles of which one is a point": (
+        [[-1, 0, 0, 0, 0, 0], [0, 0, -1, 0, 0, 0], [-1, 0, 0, 0, -0.25, 0],
+         [0, 0, 1, 0, 0, 0], [0, 0, -1, 0, -0.25, 0], [0, 1, 0, -0.25, 0, -0.25]],
+        (0, -0.5, 0.5), (2, 0, -1, 1, 1, -2),
+    ),
+    "parallel slides": (
+        [[0, 0, 1, 0, 0, 0], [0, 0, 1, 0.25, 0, 0], [0, 1, 0, 0, 0, 0],
+         [0, 0, 0, 1, 0, 0], [0, 0, -1, 0, 0.25, 0], [0, 0, 0, -1, 0, 0]],
+        (0.25, 0, 0), (0, 0, 1, 0, 0, 0),
+    ),
+    "a folded elbow of five joints": (
+        [[0, 0, 1, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0.25, 0.25, 0],
+         [0, 0, 1, 0, 0, 0], [0, 1, 0, 0.25, 0, 0.25]],
+        (0, 0, -0.25), (0, 2, 2, -2, 0.06),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", AT_RIGHT_ANGLES)
+def test_a_target_of_infinitely_many_solutions_at_right_angles_is_not_said_to_be_complete(name):
+    """Equations of nothing but rounding, as cos(pi / 2) is, had made solutions of their own."""
+    screws, p, turns = AT_RIGHT_ANGLES[name]
+    chain = pk.Chain.from_space(np.array(screws, float), pk.se3.pose(np.eye(3), p))
+    q = QUARTER * np.array(turns)
+    found = pk.ik_all(chain, chain.fk(q), restarts=100)
+    off = np.abs((found.q - q + np.pi) % (2 * np.pi) - np.pi)
+    assert not found.complete or off.max(axis=1).min() < 1e-3
+
+
+def test_at_right_angles_no_known_solution_is_lost_unsaid():
+    lost = 0
+    for seed in (335, 390, 499, 629, 638, *range(40)):
+        rng = np.random.default_rng(seed)
+        axes = np.eye(3)[rng.integers(0, 3, 6)] * rng.choice([-1, 1], (6, 1))
+        points = 0.25 * rng.integers(-1, 3, (6, 3))
+        screws = [pk.screw.revolute(*pair) for pair in zip(axes, points, strict=True)]
+        chain = pk.Chain.from_space(screws, np.eye(4))
+        solver = closed_form(chain)
+        if solver is None:
+            continue
+        q = QUARTER * rng.integers(-2, 3, (6, 6))
+        found = pk.ik_all(chain, chain.fk(q), restarts=20)
+        for k, solutions in enumerate(found.solutions):
+            off = np.abs((solutions - q[k] + np.pi) % (2 * np.pi) - np.pi)
+            listed = len(off) and off.max(axis=1).min() < 1e-3
+            lost += not listed and found.complete[k]
+    assert lost == 0

@@ -49,7 +49,7 @@ def fill(arm, R, p, rows):
                 margin = max(margin, 0.0)
             if store(arm, x[:12], margin, rows[at]):
                 at += 1
-            elif arm[RULE, ADDED] and _lost(h, P, x, R, place):
+            elif arm[RULE, ADDED] and (any_last or _lost(h, P, x, R, place)):
                 rows[at, -1] = UNSURE
                 at += 1
     return at
@@ -66,12 +66,17 @@ def _fill_planar(arm, kinds, h, P, R, place, rows):
     u = any_across(n)
     at = 0
     for root in three_parallel.outer((h[0], n, n, n, h[4], h[5]), P, R, place):
-        first, second = planar.with_outer(kinds, h, P, n, u, R, place, root)
-        if store(arm, first[:12], first[12], rows[at]):
-            at += 1
+        both = planar.with_outer(kinds, h, P, n, u, R, place, root)
         # of two prismatic joints both are the same
-        if kinds[0] + kinds[1] + kinds[2] == 1 and store(arm, second[:12], second[12], rows[at]):
-            at += 1
+        number = 3 - (kinds[0] + kinds[1] + kinds[2])
+        for k in range(number):
+            x = both[k]
+            margin = x[12]
+            # of infinitely many roots one was taken, and another one may reach
+            if abs(root[4]) < DOUBLE:
+                margin = max(margin, 0.0)
+            if store(arm, x[:12], margin, rows[at]):
+                at += 1
     return at
 
 

@@ -14,8 +14,10 @@ joints in place of the triangle's.
 """
 
 from ....algebra import add, cross, dot, scale, subtract
+from ... import elementary
 from .. import three_parallel
 from ..rotation_onto import rotated, rotation_onto
+from ..rounding import is_rounding
 from . import quadratic
 
 
@@ -58,8 +60,11 @@ def _of_two(slides, h, P, n, phi, r):
     det = dot(n, cross(u, v))
     none = 0.0 * det
     margin = 1.0 + none
-    if det == 0.0:
-        margin = none - 1.0
+    if is_rounding(0.25 * det, 1.0):
+        # one slides along the other: the way is left to the first, or is none of theirs
+        off = dot(n, cross(u, y))
+        margin = none if is_rounding(0.0625 * off, elementary.sqrt(dot(y, y))) else none - 1.0
+        v = cross(n, u)
         det = 1.0 + none
     t = dot(n, cross(y, v)) / det
     w = dot(n, cross(u, y)) / det
@@ -91,6 +96,11 @@ def _of_one(slides, h, P, n, turns, phi, r):
         z = P[2]
     squares = dot(y, y) - dot(z, z)
     t, w, margin = quadratic.roots(dot(u, u), dot(u, y), squares)
+    terms = dot(P[1], P[1]) + dot(P[4], P[4]) + dot(P[5], P[5])
+    here = elementary.sqrt(dot(y, y) + dot(z, z))
+    # a point on the axis that should turn it
+    if is_rounding(0.0625 * here, elementary.sqrt(terms)):
+        margin = min(margin, 0.0 * margin)
     one = add(y, scale(t, u))
     other = add(y, scale(w, u))
     return (

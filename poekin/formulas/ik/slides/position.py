@@ -18,6 +18,7 @@ from ... import elementary
 from .. import two_circles
 from ..position import turned_component
 from ..rotation_onto import rotated, rotation_onto
+from ..rounding import told
 from . import circle_and_line, two_lines
 
 
@@ -34,6 +35,11 @@ def roots(slides, h, P, p):
     else:
         first = _component(slides, h, P, p, h[1])
         second = _distance(slides, h, P, p)
+    if not (slides[0] or slides[2]):
+        squares = dot(p, p) + dot(P[0], P[0]) + dot(P[1], P[1]) + dot(P[2], P[2])
+        length = elementary.sqrt(squares)
+        first = told(first, length)
+        second = told(second, length if slides[1] else squares)
     a, b, c, d = _outer(slides, first, second)
     return (
         _with_second(slides, h, P, p, a),

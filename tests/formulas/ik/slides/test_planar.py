@@ -114,7 +114,16 @@ def test_at_rest_every_joint_is_at_0(slides):
 
 
 @pytest.mark.parametrize("slides", list(ORDERS.values())[3:], ids=list(ORDERS)[3:])
-def test_parallel_slides_have_no_margin(slides):
-    for row in planar.with_outer(slides, *straight(slides, (X, X, X)), ROOT):
-        assert row[12] == -1.0
-        assert np.isfinite(row).all()
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_parallel_slides_have_no_margin_and_share_the_way_along_them(slides, size):
+    """Any share of it serves, so the margin is that of a double root; across there is no way."""
+    axes, P, n, across, R, p = straight(slides, (X, X, X))
+    P = tuple(tuple(size * x for x in step) for step in P)
+    for off, margin in (((0, 0, 0), 0.0), ((0.5, 0, 0), 0.0), ((0, 0.5, 0), -1.0)):
+        place = tuple(size * (x + d) for x, d in zip(p, off, strict=True))
+        for row in planar.with_outer(slides, axes, P, n, across, R, place, ROOT):
+            assert row[12] == margin
+            assert np.isfinite(row).all()
+            ways = [row[2 + 2 * i] for i in range(3) if slides[i]]
+            if margin == 0.0:
+                assert sum(ways) == pytest.approx(size * off[0], abs=1e-15 * size)
