@@ -17,7 +17,7 @@ from ...groups.vectors import norms, translation_part
 from ...model.chain import Chain
 from ...model.readings.coupled import beyond_own_limits
 from ..joint_units import bounds
-from .ik_problem import IKProblem
+from .ik_problem import AGAIN, APART, IKProblem
 from .joint_domain import JointDomain, free_ranges
 from .least_error import least_error, slope_at
 from .solution import BAD_TARGET, ITERATIONS, LIMITS, SOLVED, UNREACHABLE, Names
@@ -82,6 +82,7 @@ def find_causes(
     """Reason of each target, its distance beyond the reach, and the limits that were hit.
 
     A target that is solved within the limits after all, from other starts, gets that solution in q.
+    One that is solved outside is tried within them once more, from there.
     """
     domain = problem.domain
     chain = problem.fast.chain
@@ -105,18 +106,29 @@ def find_causes(
         ranges=free_ranges(chain),
     )
     solved = ends[:, codes.AT_STATE] == codes.SOLVED
-    for u, k in zip(free[solved], open_ones[solved], strict=True):
-        near = np.clip(u, *domain.limits.T)
-        within = domain.wrapped(u, near)
-        if problem.contains(within):
-            q[k] = within
+    found = free[solved]
+    which = open_ones[solved]
+    near = np.clip(found, *domain.limits.T)
+    within = np.array([domain.wrapped(*pair) for pair in zip(found, near, strict=True)])
+    kept = np.array([problem.contains(one) for one in within], bool)
+    if problem.options[codes.RESTARTS] and not kept.all():
+        # as many tries again, the first from there
+        left = np.flatnonzero(~kept)
+        numbers = which[left] + AGAIN * APART
+        again, ends = problem.solve(targets[which[left]], numbers, near[left])
+        is_solved = ends[:, codes.AT_STATE] == codes.SOLVED
+        within[left[is_solved]] = again[is_solved]
+        kept[left[is_solved]] = [problem.contains(one) for one in again[is_solved]]
+    for k, one, is_within in zip(which, within, kept, strict=True):
+        if is_within:
+            q[k] = one
             reason[k] = SOLVED
-        else:
-            reason[k] = LIMITS
-            hit[k] = limits_hit(domain, q[k], within, problem.fast.q_names)
-            if (within == np.clip(within, *chain.limits.T)).all():
-                joints = beyond_own_limits(chain, within)
-                hit[k] = tuple(itertools.compress(chain.joint_names, joints))
+            continue
+        reason[k] = LIMITS
+        hit[k] = limits_hit(domain, q[k], one, problem.fast.q_names)
+        if (one == np.clip(one, *chain.limits.T)).all():
+            joints = beyond_own_limits(chain, one)
+            hit[k] = tuple(itertools.compress(chain.joint_names, joints))
     return Causes(reason, beyond, tuple(hit))
 
 

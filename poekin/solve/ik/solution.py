@@ -46,9 +46,9 @@ class Solution(Result):
         Whether both errors are within the tolerances.
     reason : (...) ndarray of str
         "solved"; "unreachable", beyond the arm's reach, or no try came nearer and all of them had
-        come to rest; "limits", solvable, but only outside the limits of some coordinates;
-        "iterations", the nearest try was still moving when its iterations ended; "bad target",
-        NaN or infinity in it.
+        come to rest; "limits", solvable, but as far as these tries see only outside the limits of
+        some coordinates; "iterations", the nearest try was still moving when its iterations ended;
+        "bad target", NaN or infinity in it.
     position_error, rotation_error : (...) ndarray
         Errors of q, m and rad, computed anew by `Chain.fk`; 0 for what the task does not ask.
     iterations, restarts : (...) ndarray of int

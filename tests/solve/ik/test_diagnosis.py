@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -120,12 +121,15 @@ class Tries:
         self.contains = self.domain.contains
         self.has_joint_limits = False
         self.found, self.states, self.asked = np.array(found, float), states, []
+        self.options = np.zeros(codes.OPTIONS)
+        self.again: Any = None
 
-    def solve(self, targets, numbers, q0, limits, ranges):  # type: ignore[no-untyped-def]
+    def solve(self, targets, numbers, q0, limits=None, ranges=None):  # type: ignore[no-untyped-def]
         self.asked.append((targets, numbers.tolist(), q0, limits, ranges))
+        found, states = (self.found, self.states) if limits is not None else self.again
         info = np.zeros((len(targets), codes.INFO))
-        info[:, codes.AT_STATE] = self.states
-        return self.found, info
+        info[:, codes.AT_STATE] = states
+        return found, info
 
 
 STATES = [
@@ -191,6 +195,24 @@ def test_what_is_solved_without_limits_is_in_their_way_or_within_them_after_all(
     assert q0.shape == (3, 2)
     np.testing.assert_array_equal(limits, FREE)
     np.testing.assert_allclose(ranges, [[-np.pi, np.pi], [-1, 1]])
+
+
+@pytest.mark.parametrize(("again", "reason"), [
+    ([0.25, 1.5], "solved"), ([0.25, 2.5], "limits"), (None, "limits"),
+])  # fmt: skip
+def test_what_is_solved_beyond_the_limits_is_tried_within_them_once_more(again, reason):
+    """From the nearest place within them, and by as many restarts; without restarts it is not."""
+    solver = Tries([[-1, 1], [-0.5, 2]], [[7.0, 0.0], [0.5, 1.0], [0.0, 3.0]], [codes.SOLVED] * 3)
+    solver.options[codes.RESTARTS] = 20
+    state = codes.SOLVED if again else codes.STALLED
+    solver.again = (np.array([again or [0.5, 0.5], [0.5, 0.5]]), [state, codes.STALLED])
+    q = np.tile([1.0, 0.25], (6, 1))
+    reasons = asked(solver, q).reason
+    assert reasons[[0, 1, 5]].tolist() == [reason, "solved", "limits"]
+    assert q[0].tolist() == (again if reason == "solved" else [1.0, 0.25])
+    _, (targets, numbers, q0, *_) = solver.asked
+    assert (targets.shape, numbers) == ((2, 4, 4), [3e10, 5 + 3e10])
+    assert q0.tolist() == [[1.0, 0.0], [0.0, 2.0]]
 
 
 @pytest.mark.parametrize("far", [1e160, 1e308])
