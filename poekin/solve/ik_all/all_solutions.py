@@ -14,6 +14,7 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...results import Result
 from ..ik.solution import place
+from ..joint_units import bounds
 from ..ragged import LazySequence, Ragged
 from .solution_sets.evidence import Evidence
 from .swivel import curves
@@ -69,10 +70,12 @@ class AllSolutions(Result):
         The arm; None of a result that was put together by hand.
     target : (..., 4, 4) ndarray or None
         Target poses of the tip in the base frame, m.
+    limits : bool
+        Whether only solutions within the arm's limits are listed.
     """
 
     derived: ClassVar = ("solutions", "n_revolutions", "explanation")
-    left_out = ("q", "revolutions", "evidence", "chain", "target")
+    left_out = ("q", "revolutions", "evidence", "chain", "target", "limits")
 
     q: Array
     revolutions: np.ndarray
@@ -91,6 +94,7 @@ class AllSolutions(Result):
     evidence: Evidence | None = None
     chain: Chain | None = None
     target: Array | None = None
+    limits: bool = True
 
     @property
     def solutions(self) -> Any:
@@ -217,7 +221,8 @@ class AllSolutions(Result):
         flat = place(index, self.counts.shape, "families")
         counts = self.counts.ravel()
         q = Ragged(self.q, counts)[flat]
-        return curves(self.chain, q, Ragged(self.sample, counts)[flat], self.redundant)
+        within = bounds(self.chain, self.limits)
+        return curves(self.chain, q, Ragged(self.sample, counts)[flat], self.redundant, within)
 
     def summary(self) -> str:
         """`explanation` of one target, or the number of all solutions of a batch.

@@ -381,4 +381,5 @@ def _result(
         evidence=evidence,
         chain=question.given,
         target=T,
+        limits=question.limits,
     )

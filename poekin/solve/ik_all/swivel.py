@@ -16,6 +16,7 @@ N_SWIVEL = 64
 """Values of the redundant coordinate where only its name is given."""
 
 _DRAWS = 64  # configurations at which it is seen which coordinate moves most
+_EDGE = 1e-9  # rad or m
 _CONTINUES = 0.5  # largest error of the step that two tangents foretell, of the step itself
 
 
@@ -93,9 +94,15 @@ def sample_values(chain: Chain, k: int, count: int, limits: bool) -> Array:
     return np.linspace(low, high, count)
 
 
-def curves(chain: Chain, q: Array, sample: np.ndarray, redundant: str) -> list[Array]:
+def curves(
+    chain: Chain,
+    q: Array,
+    sample: np.ndarray,
+    redundant: str,
+    limits: Array,
+) -> list[Array]:
     """Solutions (s, m) of one target as curves of self-motion (l, m) along the samples (s,) of the
-    redundant coordinate, the longest first.
+    redundant coordinate, the longest first; none leaves the limits (m, 2) of the coordinates.
     """
     k = chain.q_names.index(redundant)
     units = joint_units(chain.compile(), locked=True)
@@ -112,10 +119,21 @@ def curves(chain: Chain, q: Array, sample: np.ndarray, redundant: str) -> list[A
         if len(there):
             tangents = (tangent[here], tangent[there])
             i, j = _links(u[here], u[there], *tangents, k, turn)
-            following[here[i]] = there[j]
+            stays = _stays(q[here[i]], q[there[j]], periods(chain), limits)
+            following[here[i[stays]]] = there[j[stays]]
     first = np.setdiff1d(np.arange(len(q)), following)
     found = [q[_chained(row, following)] for row in first.tolist()]
     return sorted(found, key=len, reverse=True)
+
+
+def _stays(a: Array, b: Array, turn: Array, limits: Array) -> np.ndarray:
+    """Whether the shortest ways from a (s, m) to b lead to within the limits (m, 2), and not to whole
+    turns beyond them.
+    """
+    period = np.where(turn > 0, turn, np.inf)
+    step = b - a
+    end = a + step - turn * np.round(step / period)
+    return ((limits[:, 0] - _EDGE <= end) & (end <= limits[:, 1] + _EDGE)).all(axis=1)
 
 
 def _chained(row: int, following: np.ndarray) -> list[int]:

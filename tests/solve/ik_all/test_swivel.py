@@ -233,8 +233,9 @@ def test_where_solutions_of_two_curves_are_exchanged_they_are_not_linked():
     number = int(found.sample[len(found.q) // 2])
     rows = np.flatnonzero(found.sample == number)
     exchanged[rows] += 0.4 * (np.arange(7) != 6)
-    whole = curves(chain, found.q, found.sample, "joint7")
-    cut = curves(chain, exchanged, found.sample, "joint7")
+    free = np.tile([-np.inf, np.inf], (7, 1))
+    whole = curves(chain, found.q, found.sample, "joint7", free)
+    cut = curves(chain, exchanged, found.sample, "joint7", free)
     assert len(cut) > len(whole)
 
 
@@ -313,3 +314,12 @@ def test_threads_find_what_one_thread_finds():
     one, many = (ik_all(chain, T, method="search", parallel=parallel) for parallel in (False, True))
     np.testing.assert_array_equal(one.q, many.q)
     np.testing.assert_array_equal(one.counts, many.counts)
+
+
+def test_a_curve_leaves_the_limits_at_no_place():
+    """A step that is short but for a whole turn leads out of the limits and in again beyond them."""
+    T = PANDA.fk([-1.1, -0.05, 2.26, -0.27, -0.82, 2.14, -1.03])
+    for limits, crosses in ((True, False), (False, True)):
+        families = ik_all(PANDA, T, n_swivel=64, limits=limits).families()
+        changes = [np.abs(np.diff(curve, axis=0)).max(initial=0) for curve in families]
+        assert (max(changes) > 4.0) == crosses
