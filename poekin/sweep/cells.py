@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import positive, whole
 from ..errors import InputError, ShapeError
-from ..groups.arrays import Array, poses
+from ..groups.arrays import Array, numbers, poses
 from ..groups.vectors import rotation_part, translation_part
 from .tile_centres import tile_centres
 
@@ -299,7 +299,7 @@ def _tilts(z: Array) -> Array:
 
 
 def _corner(point: ArrayLike, what: str) -> Array:
-    values = np.asarray(point, float)
+    values = numbers(point, what)
     if values.shape != (3,) or not np.isfinite(values).all():
         raise ShapeError(f"{what}: expected three finite numbers, m, got {point!r}")
     return values

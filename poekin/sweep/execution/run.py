@@ -7,7 +7,7 @@ import pickle
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Protocol, TypedDict, Unpack
+from typing import Any, Protocol, TypedDict
 
 from ...checks import whole
 from ...engine.jit.threads import processors
@@ -107,16 +107,23 @@ def run(
     return map_of(sweep, totals)
 
 
-def run_totals(sweep: Sweep, **options: Unpack[RunOptions]) -> Totals:
+def run_totals(
+    sweep: Sweep,
+    *,
+    chunk: int | None = None,
+    workers: int | None = None,
+    executor: Executor | None = None,
+    store: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    progress: Progress | None = None,
+) -> Totals:
     """Totals of a sweep, its options those of `run`. Raises: InputError, FileError."""
-    chunk = options.get("chunk")
+    if resume and store is None:
+        raise InputError("resume: expected a store, which keeps what is done, got none")
     if chunk is None:
         chunk = max(_CHUNK, _OF_CELL * sweep.cells.count)
         if isinstance(sweep.samples, NumberedPoses):
             chunk //= _OF_POSE
-    workers = options.get("workers")
-    executor = options.get("executor")
-    store = options.get("store")
     whole(chunk, "chunk", 1)
     if workers is not None:
         whole(workers, "workers", 1)
@@ -124,11 +131,11 @@ def run_totals(sweep: Sweep, **options: Unpack[RunOptions]) -> Totals:
         raise InputError(f"executor: expected an object with submit, got {type(executor).__name__}")
     threads = workers or processors()
     _check_memory(sweep, threads + 1)
-    kept = None if store is None else Store(store, sweep, chunk, options.get("resume", False))
+    kept = None if store is None else Store(store, sweep, chunk, resume)
     if executor is not None:
         threads = workers or _GIVEN
     ranges = Ranges(sweep.samples.count, chunk, 2 * threads)
-    tell = _Teller(options.get("progress"), sweep.samples.count)
+    tell = _Teller(progress, sweep.samples.count)
     if executor is not None:
         return _summed(sweep, ranges, executor, kept, tell)
     with ThreadPoolExecutor(threads, thread_name_prefix="poekin") as own:

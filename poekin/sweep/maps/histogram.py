@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Unpack, get_args
 
@@ -155,9 +156,9 @@ def _tried(
 
 
 def _checked(ends: tuple[float, float]) -> tuple[float, float]:
-    lower, upper = ends
-    if not (is_real(lower) and is_real(upper) and -math.inf < lower < upper < math.inf):
-        raise InputError(
-            f"ends: expected two numbers, the smaller one first, got {safe_repr(ends)}"
-        )
-    return float(lower), float(upper)
+    if isinstance(ends, Iterable):
+        lower, upper, *more = (*ends, None, None)
+        is_pair = is_real(lower) and is_real(upper) and more == [None, None]
+        if is_pair and -math.inf < lower < upper < math.inf:
+            return float(lower), float(upper)
+    raise InputError(f"ends: expected two numbers, the smaller one first, got {safe_repr(ends)}")

@@ -10,7 +10,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import FileError, InputError, UnknownName
+from ...checks import is_real
+from ...errors import FileError, InputError, UnknownName, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...results import Result
@@ -200,8 +201,7 @@ class SweepMap(Result):
         Accuracy: as `Cells.find`. Source: as `reach`.
         """
         found = self.cells.find(T)
-        counts = self.counts.reshape(-1)[found]
-        return np.where(found < 0, 0, counts)
+        return np.where(found < 0, 0, self.counts.reshape(-1)[found])
 
     def slice(self, axis: str, at: float) -> np.ndarray:
         """The cells of one layer of cubes.
@@ -229,10 +229,12 @@ class SweepMap(Result):
             raise UnknownName(f"axis: expected 'x', 'y' or 'z', got {axis!r}")
         along = "xyz".index(axis)
         start = self.cells.corner[along]
-        number = math.floor((at - start) * self.cells.place()[3])
-        if not 0 <= number < self.cells.shape[along]:
-            end = start + self.cells.shape[along] * self.cells.resolution
-            raise InputError(f"at: expected {axis} within {start:g} ... {end:g} m, got {at!r}")
+        most = self.cells.shape[along]
+        end = start + most * self.cells.resolution
+        if not (is_real(at) and start <= at < end):
+            place = f"{axis} within {start:g} ... {end:g} m"
+            raise InputError(f"at: expected {place}, got {safe_repr(at)}")
+        number = min(math.floor((at - start) * self.cells.place()[3]), most - 1)
         return np.take(self.counts, number, axis=along)
 
     def configurations(self, cells: Any = ...) -> Array:
@@ -354,16 +356,9 @@ def map_of(sweep: Sweep, totals: Totals) -> SweepMap:
     elif totals.rule == "extreme":
         attained = totals.attained.reshape(shape)
         best = np.where(attained == NO_SAMPLE, np.nan, sweep.sign * totals.best.reshape(shape))
-    return SweepMap(
-        sweep.describe(),
-        cells,
-        sweep.samples,
-        totals.counts.reshape(shape),
-        totals.outside,
-        best,
-        attained,
-        sweep,
-    )
+    counts = totals.counts.reshape(shape)
+    found = (sweep.samples, counts, totals.outside, best, attained)
+    return SweepMap(sweep.describe(), cells, *found, sweep)
 
 
 def load_map(path: str | os.PathLike[str]) -> SweepMap:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import InputError, ShapeError
-from ...groups.arrays import Array
+from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.sampling import sampling_range
 from ...solve.joint_units import periods
@@ -19,7 +19,7 @@ class LimitMargin(Measure):
     """Relative distance to the joint limits: 0 at a limit, 1 where all coordinates are in the middle.
 
     It is that of the worst coordinate, its distance to the nearer limit over half its range; a
-    coordinate that has not both limits does not count.
+    coordinate that has not both limits, or cannot move between them, does not count.
 
     Examples
     --------
@@ -78,6 +78,12 @@ class JointTravel(Measure):
     kind = 4
     sign = -1
 
+    def __post_init__(self) -> None:
+        for what, values in (("reference", self.reference), ("speeds", self.speeds)):
+            if values is not None:
+                given = numbers(values, what)
+                object.__setattr__(self, what, tuple(given.ravel().tolist()))
+
     @property
     def name(self) -> str:
         """Its name, another one where it is a time."""
@@ -128,5 +134,6 @@ def _nearest_turns(chain: Chain, q: Array, reference: Array) -> Array:
 
 
 def _has_limits(chain: Chain) -> np.ndarray:
-    """Whether each coordinate (m,) has both limits."""
-    return np.logical_and(*np.isfinite(chain.limits).T)
+    """Whether each coordinate (m,) has both limits, and moves between them."""
+    lower, upper = chain.limits.T
+    return np.isfinite(lower) & np.isfinite(upper) & (lower < upper)

@@ -11,7 +11,7 @@ import pytest
 
 import poekin as pk
 from poekin.errors import InputError
-from poekin.sweep import Grid, JointTravel, Random, Sobol, histogram
+from poekin.sweep import Grid, JointTravel, Random, Sobol, histogram, top
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.sweep.arms import slide, two_links
 
@@ -103,6 +103,12 @@ def test_the_summary_names_measure_and_quantiles():
         ("travel", {"ends": (2.0, 1.0)}, "ends: expected two numbers, the smaller one first"),
         ("travel", {"ends": (0.0, math.inf)}, "ends: expected two numbers"),
         ("travel", {"ends": (math.nan, 1.0)}, "ends: expected two numbers"),
+        *[("travel", {"ends": ends}, "ends: expected two") for ends in ((0, 1, 2), (0,), 5, "ab")],
+        (
+            "travel",
+            {"resume": True},
+            "^resume: expected a store, which keeps what is done, got none$",
+        ),
         ("travel", {"samples": 0}, "count: expected a whole number"),
         ("travel", {"chunk": 0}, "chunk"),
     ],
@@ -110,6 +116,13 @@ def test_the_summary_names_measure_and_quantiles():
 def test_what_cannot_be_counted_is_refused(measure, options, words):
     with pytest.raises(InputError, match=words):
         histogram(ARM, measure, **{"samples": 100} | options)
+
+
+@pytest.mark.parametrize("how", [histogram, top])
+def test_an_option_that_there_is_not_is_refused(how):
+    count = {"count": 1} if how is top else {"bins": 2}
+    with pytest.raises(TypeError, match="worker"):
+        how(ARM, "travel", samples=100, worker=3, **count)
 
 
 def test_its_summary_says_below_which_value_a_share_of_the_configurations_is():

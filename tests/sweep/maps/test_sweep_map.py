@@ -48,6 +48,11 @@ def test_a_layer_is_that_of_the_place():
         MEASURED.slice("w", 0.0)
     with pytest.raises(InputError, match=r"^at: expected y within -1 \.\.\. 1 m, got 1\.5$"):
         MEASURED.slice("y", 1.5)
+    for at in (np.nan, np.inf, "a", None):
+        with pytest.raises(InputError, match=r"^at: expected y within -1 \.\.\. 1 m, got "):
+            MEASURED.slice("y", at)
+    layer = MEASURED.slice("y", np.nextafter(1.0, 0.0))
+    np.testing.assert_array_equal(layer, MEASURED.counts[:, -1])
 
 
 def test_configurations_with_the_best_measure_lie_in_their_cells():

@@ -109,3 +109,21 @@ def test_numbers_of_another_arm_are_refused(measure, kind, words):
         measure.check(two_links())
     assert says(caught.value, words)
     JointTravel((-1.0, 0.0), (0.1, 1e-300)).check(two_links())
+
+
+def test_a_coordinate_that_cannot_move_is_at_no_limit():
+    limits = LIMITS.copy()
+    limits[2] = 0.5
+    assert LimitMargin().numbers(ARM.replace(limits=limits))[[2, 6]].tolist() == [0.0, 0.0]
+    held = ARM.replace(limits=np.tile([0.5, 0.5], (4, 1)))
+    with pytest.raises(InputError, match=r"no coordinate of .* has limits"):
+        LimitMargin().check(held)
+
+
+@pytest.mark.parametrize("values", [[1, 2, 3, 4], np.arange(1.0, 5.0), (1.0, 2.0, 3.0, 4.0)])
+def test_travel_takes_any_row_of_numbers(values):
+    measure = JointTravel(values, speeds=values)
+    assert measure.reference == measure.speeds == (1.0, 2.0, 3.0, 4.0)
+    assert hash(measure) == hash(JointTravel((1.0, 2.0, 3.0, 4.0), (1.0, 2.0, 3.0, 4.0)))
+    with pytest.raises(InputError, match=r"^reference: expected real numbers, got text"):
+        JointTravel(("a",) * 4)  # pyright: ignore[reportArgumentType]

@@ -226,3 +226,14 @@ def test_quaternions_are_those_of_rotations_with_either_sign():
     assert 0 < min(np.linalg.norm(q[1:]) for q in every if q[1:].any()) < 1e-8
     simplest = find(group_strategies.quaternions_wxyz(), lambda q: True, settings=QUICK)
     np.testing.assert_array_equal(simplest, [1, 0, 0, 0])
+
+
+@pytest.mark.parametrize(
+    ("largest", "smallest"), [(3.0, 1.0), (math.pi, 3.0), (4.0, 2.5), (1e-3, 1e-9)]
+)
+def test_no_angle_but_0_is_below_the_smallest(largest, smallest):
+    found = np.array(drawn(group_strategies.angles(largest, smallest), 2000))
+    beside = found[found > 0]
+    assert len(beside) > 100
+    assert smallest <= beside.min()
+    assert beside.max() <= largest

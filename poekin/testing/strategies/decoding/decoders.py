@@ -54,9 +54,9 @@ def angle(
         return r.magnitude(smallest, max(smallest, 1e-12))
     if kind < 8 and (marks := _marks(largest, smallest)):
         return r.pick(marks)
-    if kind < 10 and largest >= math.pi:
+    if kind < 10 and smallest <= math.pi - 1.0 and largest >= math.pi:
         return math.pi - 10.0 ** -r.fraction(0.0, 16.0)
-    return r.fraction(0.0, largest)
+    return r.fraction(min(smallest, largest), largest)
 
 
 def axis(r: BytesReader) -> Array:
