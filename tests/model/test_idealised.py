@@ -11,7 +11,7 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given, settings, target
+from hypothesis import example, given, settings, target
 from hypothesis import strategies as st
 
 import poekin as pk
@@ -121,8 +121,33 @@ def exact_and_noisy(draw):
     return [dh.to_chain(Table("modified", some)) for some in (rows, noisy)]
 
 
+def two_joints(screws, home):
+    """A chain of numbers that a failure was printed with."""
+    return pk.Chain.from_space(screws, [*home, [0, 0, 0, 1]])
+
+
+# A place of 1 m, missed by its last digit, was made exact once more.
+EXACT = two_joints(
+    [[0.0, 0.0, 1.0, 0.0, -1.0, 0.0],
+     [-0.4829629131445341, -0.12940952255126034, 0.8660254037844387,
+      -0.39341316728486964, -1.4890782344552311, -0.4419095225512603]],
+    [[0.25881904510252074, 0.8365163037378079, -0.4829629131445341, 1.1617619031890754],
+     [-0.9659258262890683, 0.2241438680420134, -0.12940952255126034, -0.6037036414306677],
+     [0.0, 0.49999999999999994, 0.8660254037844387, 1.0]],
+)  # fmt: skip
+NOISY = two_joints(
+    [[0.0, -1.794597788548012e-06, 0.9999999999983897, 0.0, -0.9999999999983897, -1.794597788548012e-06],
+     [-0.482962603199571, -0.12941101814642728, 0.8660253531467764,
+      -0.39341332886632063, -1.4890773671588375, -0.44191193968503983]],
+    [[0.2588184611533405, 0.8365166633587824, -0.482962603199571, 1.161762079857938],
+     [-0.9659259827552863, 0.22414233027373362, -0.12941101814642728, -0.6037053886887201],
+     [-2.109785491787355e-06, 0.5000000877025423, 0.8660253531467764, 0.9999986509882272]],
+)  # fmt: skip
+
+
 @FEW
 @given(exact_and_noisy())
+@example([EXACT, NOISY])
 def test_exact_geometry_comes_back_from_a_rounded_one(pair):
     exact, noisy = pair
     result = noisy.idealised(TOL)

@@ -19,7 +19,7 @@ from ...algebra import dot, subtract
 from ...checks import is_real
 from ...errors import InputError, safe_repr
 from ...groups.arrays import ROUNDOFF, Array
-from ...groups.vectors import directions
+from ...groups.vectors import angular_part, directions
 from ...results import Result
 from ..chain_data import AnyChain, ChainData
 from ..sampling import largest_slides
@@ -132,19 +132,24 @@ def _nearest(chain: ChainData, frames: list[Frame]) -> list[Frame]:
 
 
 def _settled(chain: ChainData, screws: Array, home: Array) -> bool:
-    """Whether a chain is as exact already as floats can say: only last digits differ, and no 0, 1
-    or parallel axis.
+    """Whether a chain is as exact already as floats can say: only last digits differ, and no 0, no
+    direction's 1 or parallel axis.
     """
-    for old, new in ((chain.screws, screws), (chain.home, home)):
+    turns = angular_part(screws).any(axis=1)
+    ways = np.repeat(np.stack([turns, ~turns], axis=1), 3, axis=1)
+    rotation = np.zeros((4, 4), bool)
+    rotation[:3, :3] = True
+    for old, new, is_way in ((chain.screws, screws, ways), (chain.home, home, rotation)):
         size = np.abs(old).max(initial=chain.reach)
         far = np.abs(old - new) > 16 * ROUNDOFF * size
-        made_exact = np.isin(new, (-1.0, 0.0, 1.0)) & (old != new)
-        if far.any() or made_exact.any():
+        # a place of 1 m is as any other
+        is_exact = (new == 0.0) | is_way & (np.abs(new) == 1.0)
+        if far.any() or (is_exact & (old != new)).any():
             return False
     # Axes that are parallel in the new screws must be so in the old ones.
     parallel: dict[bytes, bytes] = {}
-    ways = zip(map(_way, screws), map(_way, chain.screws), strict=True)
-    return all(parallel.setdefault(exact, given) == given for exact, given in ways)
+    pairs = zip(map(_way, screws), map(_way, chain.screws), strict=True)
+    return all(parallel.setdefault(exact, given) == given for exact, given in pairs)
 
 
 def _way(S: Array) -> bytes:

@@ -5,6 +5,8 @@ say.
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -124,7 +126,9 @@ def test_a_chain_is_settled_where_last_digits_differ_alone(metres):
 
 
 @pytest.mark.parametrize("number", [0.0, 1.0, -1.0])
-def test_a_chain_is_not_settled_where_a_zero_or_a_one_is_missed_by_its_last_digit(number):
+def test_a_chain_is_not_settled_where_a_zero_is_missed_by_its_last_digit_and_no_place_is_a_one(
+    number,
+):
     S = screw.revolute([0.6, 0, 0.8], [0, 0, 0])
     T = np.eye(4)
     for off in (2**-52, -(2**-52)):
@@ -133,9 +137,24 @@ def test_a_chain_is_not_settled_where_a_zero_or_a_one_is_missed_by_its_last_digi
         other[0, 3] = number
         chain = Chain.from_space([S], T)
         assert _settled(chain, chain.screws, T)
-        assert not _settled(chain, chain.screws, other)
+        assert _settled(chain, chain.screws, other) == (number != 0.0)
     S = screw.prismatic([0.6, 0, 0.8])
     assert Chain.from_space([S], np.eye(4)).idealised(TOL).chain.screws[0].tolist() == S.tolist()
+
+
+def test_a_chain_is_not_settled_where_a_direction_s_one_is_missed_by_its_last_digit():
+    one = 1 - 2**-53
+    chain = Chain.from_space([screw.revolute([0, 0, 1], [0, -1, 0])], np.eye(4))
+    slide = Chain.from_space([screw.prismatic([0, -1, 0])], np.eye(4))
+    for arm, k, settled in ((chain, 2, False), (chain, 3, True), (slide, 4, False)):
+        screws = arm.screws.copy()
+        screws[0, k] *= one
+        given: Any = SimpleNamespace(screws=screws, home=arm.home, reach=1.0)
+        assert _settled(given, arm.screws, arm.home) == settled
+    home = np.eye(4)
+    home[1, 1] = one
+    given = SimpleNamespace(screws=chain.screws, home=home, reach=1.0)
+    assert not _settled(given, chain.screws, np.eye(4))
 
 
 def test_a_chain_is_not_settled_where_axes_are_not_parallel_to_the_last_bit():
