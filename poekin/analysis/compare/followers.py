@@ -53,7 +53,8 @@ def follows(
     small = np.where(slides, tol.position, tol.rotation)
     leading = np.where(slides, 1.0, 2 * math.pi)
     scales = np.concatenate([leading, leading, np.full(spare, 2 * math.pi)])
-    differ = (np.abs(F - G) * scales > small[:, None]).any(axis=1)
+    apart = np.abs(F - G) * scales
+    differ = np.any(apart > small[:, None], axis=1)
     ours = [_words(terms, i, a) for i, terms in enumerate(F)]
     theirs = [_words(terms, i, b) for i, terms in enumerate(G)]
     return [Following(*each) for each in zip(ours, theirs, differ.tolist(), strict=True)]

@@ -114,7 +114,7 @@ def find_causes(
     if problem.options[codes.RESTARTS] and not kept.all():
         # as many tries again, the first from there
         left = np.flatnonzero(~kept)
-        numbers = which[left] + AGAIN * APART
+        numbers = (which[left] + AGAIN * APART).astype(float)
         again, ends = problem.solve(targets[which[left]], numbers, near[left])
         is_solved = ends[:, codes.AT_STATE] == codes.SOLVED
         within[left[is_solved]] = again[is_solved]

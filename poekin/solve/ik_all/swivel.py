@@ -133,7 +133,8 @@ def _stays(a: Array, b: Array, turn: Array, limits: Array) -> np.ndarray:
     period = np.where(turn > 0, turn, np.inf)
     step = b - a
     end = a + step - turn * np.round(step / period)
-    return ((limits[:, 0] - _EDGE <= end) & (end <= limits[:, 1] + _EDGE)).all(axis=1)
+    lower, upper = limits.T
+    return np.all((lower - _EDGE <= end) & (end <= upper + _EDGE), axis=1)
 
 
 def _chained(row: int, following: np.ndarray) -> list[int]:

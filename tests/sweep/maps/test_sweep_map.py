@@ -50,7 +50,7 @@ def test_a_layer_is_that_of_the_place():
         MEASURED.slice("y", 1.5)
     for at in (np.nan, np.inf, "a", None):
         with pytest.raises(InputError, match=r"^at: expected y within -1 \.\.\. 1 m, got "):
-            MEASURED.slice("y", at)
+            MEASURED.slice("y", at)  # pyright: ignore[reportArgumentType]
     layer = MEASURED.slice("y", np.nextafter(1.0, 0.0))
     np.testing.assert_array_equal(layer, MEASURED.counts[:, -1])
 

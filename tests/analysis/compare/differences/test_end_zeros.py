@@ -104,7 +104,9 @@ def test_the_limits_say_it_beside_any_motion_of_base_and_tool_too(kind, end, way
     assert joint.zero_offset == pytest.approx(-q[end], abs=1e-12)
     frames = {"base": result.base, "tool": result.tool}
     for frame, T in frames.items():
+        assert T is not None
         assert np.allclose(T, np.eye(4), atol=1e-12) == (frame not in moved)
+    assert result.after is not None
     assert result.after.worst_position < 1e-12
 
 
