@@ -29,7 +29,7 @@ from ...model.geometry.normals import (
     unit,
 )
 from ...model.kinematics.arm import Arm, chain_of
-from ...model.readings.coupled import own_limits, own_readings
+from ...model.readings.coupled import own_coupling, own_limits
 from ...model.readings.statements import make_statements
 from ...results import Result, plain
 from .table import Convention, Row, Table, check_convention
@@ -175,7 +175,7 @@ def from_chain(
         away = sum(lengths) + norm(translation_part(table.tool)) + chain.kinds.count("prismatic")
         bound += 2 * sum(walk.dropped) * max(1.0, away / chain.reach)
     error = _error(chain, table, samples, seed)
-    readings = own_readings(chain)
+    readings = own_coupling(chain)
     if readings is not None and chain.offset.any():
         walk.warnings.append(
             "the coupling of readings is left out: with offsets c, x = K r + c, a table cannot say it"
@@ -357,7 +357,7 @@ def _pose(x: Vector, z: Vector, o: Vector) -> Array:
 
 def _with_coupling(table: Table, chain: Chain) -> Table:
     """The table with the coupling of the chain's readings, where these have the joints' names."""
-    readings = own_readings(chain)
+    readings = own_coupling(chain)
     if readings is None or chain.offset.any():
         return table
     return Table(

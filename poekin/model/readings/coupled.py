@@ -45,6 +45,14 @@ def with_readings(chain: AnyChain, K: Array, names: tuple[str, ...]) -> AnyChain
 
 
 def own_readings(chain: ChainData) -> Array | None:
+    """K (n, n) of `own_coupling`; None where each joint follows one coordinate."""
+    K = own_coupling(chain)
+    if K is None or not (np.count_nonzero(K, axis=1) > 1).any():
+        return None
+    return K
+
+
+def own_coupling(chain: ChainData) -> Array | None:
     """K (n, n) of readings of the joints' own names, in the order of the joints, that these follow,
     x = K r + c; None where each is its own reading, or coordinates have other names.
     """

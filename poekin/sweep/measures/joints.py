@@ -61,6 +61,11 @@ class JointTravel(Measure):
     speeds : tuple of float, optional
         Speeds of the coordinates, rad/s or m/s: with them travel is a time, s.
 
+    Raises
+    ------
+    InputError
+        If they are no numbers.
+
     Examples
     --------
     >>> import poekin as pk

@@ -15,6 +15,7 @@ from poekin.errors import InputError
 from poekin.model.readings.coupled import (
     beyond_own_limits,
     joint_values,
+    own_coupling,
     own_limits,
     own_readings,
     own_speeds,
@@ -307,10 +308,13 @@ def test_own_readings_are_told_from_other_coordinates():
     coupled = ARM.coupled("J3 = J2 + J3")
     np.testing.assert_array_equal(own_readings(coupled), coupled.coupling)
     assert own_readings(ARM) is None
-    np.testing.assert_array_equal(own_readings(ARM.replace(coupling=-np.eye(6))), -np.eye(6))
-    assert own_readings(ARM.replace(coupling=np.eye(6))) is None
+    turned = ARM.replace(coupling=-np.eye(6))
+    np.testing.assert_array_equal(own_coupling(turned), -np.eye(6))
+    assert own_readings(turned) is None
+    np.testing.assert_array_equal(own_coupling(coupled), coupled.coupling)
+    assert own_coupling(ARM) is own_coupling(ARM.replace(coupling=np.eye(6))) is None
     order = ARM.q_names[::-1]
-    assert own_readings(ARM.replace(coupling=np.eye(6)[::-1], q_names=order)) is None
+    assert own_coupling(ARM.replace(coupling=np.eye(6)[::-1], q_names=order)) is None
     assert own_readings(coupled.replace(q_names=list("abcdef"))) is None
     names = coupled.q_names[::-1]
     turned = coupled.replace(coupling=coupled.coupling[:, ::-1], q_names=names, limits=None)
