@@ -21,8 +21,6 @@ _SAID = re.compile(r"sep=([;,\t])", re.IGNORECASE)
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d*,\d*(?:[eE][+-]?\d+)?\s*")
 # not where it is the name of a column
 _COMMENT = re.compile(r"\s*(?:#+|//|%)(?!\s*[,;\t])\s?")
-_BEFORE_UNIT = re.compile(r"\s+(?=[\[(])")
-_UNIT = re.compile(r"\s*[\[(][^\])]*[\])]$")
 _THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}\s*")
 
 
@@ -62,7 +60,7 @@ def split(lines: Iterator[str], where: str, names: Sequence[str] = ()) -> Iterat
         separator = separator_of(first, names)
         lines = itertools.chain([first], lines)
     if separator == " ":
-        lines = (" ".join(_BEFORE_UNIT.sub("", line).split()) for line in lines)
+        lines = map(_one_blank, lines)
     reader = csv.reader(lines, delimiter=separator, strict=True)
     rows = _numbered(reader, before, where)
     if separator in ";\t":
@@ -78,10 +76,23 @@ def separator_of(line: str, names: Sequence[str] = ()) -> str:
     # a tab beside a comma is a blank
     if "\t" in re.sub(", *\t|\t *,", ",", bare).strip("\t"):
         return "\t"
-    one_name = _UNIT.sub("", line.strip()) in names
-    if "," in bare or one_name or len(_BEFORE_UNIT.sub("", bare).split()) < 2:
+    if "," in bare or _without_unit(line) in names or len(_one_blank(bare).split()) < 2:
         return ","
     return " "
+
+
+def _one_blank(line: str) -> str:
+    """A line with single blanks, and none before a unit, which belongs to the name there."""
+    return " ".join(line.split()).replace(" [", "[").replace(" (", "(")
+
+
+def _without_unit(line: str) -> str:
+    """A name without the unit in brackets behind it."""
+    name = line.strip()
+    if name.endswith(("]", ")")):
+        begin = max(name.rfind("["), name.rfind("("))
+        return name[:begin].rstrip()
+    return name
 
 
 def _first(lines: Iterator[str]) -> tuple[int, str]:

@@ -147,3 +147,9 @@ def test_utf_16_is_named(tmp_path):
     assert str(caught.value).endswith(
         "is no text file: byte 0 is not UTF-8; it is UTF-16, save it as CSV UTF-8"
     )
+
+
+@pytest.mark.parametrize("text", [" " * 200_000 + "x", "(" * 200_000, "a" + " (" * 100_000 + ")"])
+def test_a_long_line_is_gone_over_once(text):
+    """Not once for each of its characters, which would take minutes."""
+    assert csv_dialect.separator_of(text, ("q",)) in (",", " ")
