@@ -52,20 +52,16 @@ def with_end_zeros(
         if not np.isfinite([pair.a.limits[end.k], pair.b.limits[end.k]]).all():
             continue
         z = turn_about(end.T, end.S, tol)
-        frames = reading.frames - 1
         stays = np.eye(4)
         if z is None:
             z = _shift_of_limits(pair, reading, end.k)
-            frames = reading.frames
             stays = se3.exp(-z * end.S) @ end.T
         if _limits_say(pair, reading, end.k, z, tol):
             zeros = reading.zeros.copy()
             offset = reading.offset.copy()
             zeros[end.k] += z
             offset[end.k] = True
-            reading = replace(
-                reading, zeros=zeros, offset=offset, frames=frames, **{end.frame: stays}
-            )
+            reading = replace(reading, zeros=zeros, offset=offset, **{end.frame: stays})
     return reading
 
 
