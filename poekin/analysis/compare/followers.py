@@ -13,8 +13,8 @@ from ...model.chain import Chain
 from ..axis_lines import Tolerances, prismatic
 from .alignment.hypotheses import Hypothesis
 
-_NOTHING = 1e-12  # as a ratio
-_INDEPENDENT = 1e-9  # of a joint's row of C
+_NOTHING = 1e-12  # as a ratio, and of a row of C
+_INDEPENDENT = 1e-9  # of a row of C
 
 
 class Following(NamedTuple):
@@ -75,9 +75,10 @@ def _relations(C: Array, spare: int) -> Array:
         ratios[np.abs(ratios) <= _NOTHING] = 0.0
         F[i, leaders] = ratios
         rest = row - ratios @ lead
-        if np.linalg.norm(rest) > _INDEPENDENT * np.linalg.norm(row):
+        size = np.linalg.norm(row)
+        if np.linalg.norm(rest) > _INDEPENDENT * size:
             leaders.append(i)
-            beside[i] = np.where(np.abs(rest) > _NOTHING, rest, 0.0)
+            beside[i] = np.where(np.abs(rest) > _NOTHING * size, rest, 0.0)
     moving = np.flatnonzero(C.any(axis=0))
     columns = [n + i for i in leaders] + list(range(2 * n, 2 * n + spare))
     F[:, columns[: len(moving)]] = beside[:, moving]

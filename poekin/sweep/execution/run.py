@@ -7,11 +7,11 @@ import pickle
 import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Protocol, TypedDict
+from typing import Any, Protocol, TypedDict, Unpack
 
 from ...checks import whole
 from ...engine.jit.threads import processors
-from ...errors import InputError
+from ...errors import InputError, quote, suggest
 from ...results import Progress
 from ..maps.sweep_map import SweepMap, map_of
 from ..pose_samples import NumberedPoses
@@ -107,19 +107,13 @@ def run(
     return map_of(sweep, totals)
 
 
-def run_totals(
-    sweep: Sweep,
-    *,
-    chunk: int | None = None,
-    workers: int | None = None,
-    executor: Executor | None = None,
-    store: str | os.PathLike[str] | None = None,
-    resume: bool = False,
-    progress: Progress | None = None,
-) -> Totals:
+def run_totals(sweep: Sweep, **options: Unpack[RunOptions]) -> Totals:
     """Totals of a sweep, its options those of `run`. Raises: InputError, FileError."""
-    if resume and store is None:
-        raise InputError("resume: expected a store, which keeps what is done, got none")
+    _check_names(options)
+    chunk = options.get("chunk")
+    workers = options.get("workers")
+    executor = options.get("executor")
+    store = options.get("store")
     if chunk is None:
         chunk = max(_CHUNK, _OF_CELL * sweep.cells.count)
         if isinstance(sweep.samples, NumberedPoses):
@@ -131,17 +125,27 @@ def run_totals(
         raise InputError(f"executor: expected an object with submit, got {type(executor).__name__}")
     threads = workers or processors()
     _check_memory(sweep, threads + 1)
-    kept = None if store is None else Store(store, sweep, chunk, resume)
+    kept = None if store is None else Store(store, sweep, chunk, options.get("resume", False))
     if executor is not None:
         threads = workers or _GIVEN
     ranges = Ranges(sweep.samples.count, chunk, 2 * threads)
-    tell = _Teller(progress, sweep.samples.count)
+    tell = _Teller(options.get("progress"), sweep.samples.count)
     if executor is not None:
         return _summed(sweep, ranges, executor, kept, tell)
     with ThreadPoolExecutor(threads, thread_name_prefix="poekin") as own:
         if kept is None:
             return _shared(sweep, iter(ranges), own, threads, tell)
         return _summed(sweep, ranges, own, kept, tell)
+
+
+def _check_names(options: RunOptions) -> None:
+    """Refuses options that there are not, and one that nothing can be taken from."""
+    known = RunOptions.__annotations__
+    for name in options:
+        if name not in known:
+            raise InputError(f"sweep: no option {quote(name)}; {suggest(name, known)}")
+    if options.get("resume") and options.get("store") is None:
+        raise InputError("resume: expected a store, which keeps what is done, got none")
 
 
 class _Teller:

@@ -121,7 +121,7 @@ def test_what_cannot_be_counted_is_refused(measure, options, words):
 @pytest.mark.parametrize("how", [histogram, top])
 def test_an_option_that_there_is_not_is_refused(how):
     count = {"count": 1} if how is top else {"bins": 2}
-    with pytest.raises(TypeError, match="worker"):
+    with pytest.raises(InputError, match=r"^sweep: no option 'worker'; did you mean 'workers'\?"):
         how(ARM, "travel", samples=100, worker=3, **count)
 
 

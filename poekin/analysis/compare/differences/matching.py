@@ -47,7 +47,8 @@ def matched(a: Chain, b: Chain, asked: Asked) -> Matched | None:
     if (signs > 0).all():
         return found
     limits = np.sort(signs[:, None] * found.b.limits)
-    b = found.b.replace(screws=signs[:, None] * found.b.screws, limits=limits)
+    screws = signs[:, None] * found.b.screws
+    b = found.b.replace(screws=screws, limits=limits, pitches=found.b.pitches)
     x_a, x_b = found.both
     return found._replace(
         b=b, C_b=signs[:, None] * found.C_b, y=signs * found.y, both=(x_a, signs * x_b)

@@ -46,6 +46,15 @@ UNSURE = -2.0
 """Margin of a row with an added joint anywhere: the arm may have solutions that are not listed."""
 
 
+def doubted(margin, first):
+    """Margin of a branch whose first step has the margin `first`: 0 at least where that is a double
+    root, or one of infinitely many, of which another one may reach.
+    """
+    if abs(first) < DOUBLE:
+        return max(margin, 0.0)
+    return margin
+
+
 def vector(row, start):
     """Three numbers of a row."""
     return row[start], row[start + 1], row[start + 2]

@@ -17,6 +17,7 @@ from .closed_arm import (
     across,
     brought,
     direction,
+    doubted,
     point,
     slides,
     store,
@@ -41,13 +42,10 @@ def fill(arm, R, p, rows):
     at = 0
     for root in three_parallel.outer(h, P, R, place):
         first, second = three_parallel.with_outer(h, P, u, R, place, root)
-        # where the sixth axis is parallel to the three, any x_6 was taken, and another one may reach
+        # where the sixth axis is parallel to the three, any x_6 was taken
         any_last = abs(root[4]) < DOUBLE
         for x in (first, second):
-            margin = x[12]
-            if any_last:
-                margin = max(margin, 0.0)
-            if store(arm, x[:12], margin, rows[at]):
+            if store(arm, x[:12], doubted(x[12], root[4]), rows[at]):
                 at += 1
             elif arm[RULE, ADDED] and (any_last or _lost(h, P, x, R, place)):
                 rows[at, -1] = UNSURE
@@ -71,11 +69,7 @@ def _fill_planar(arm, kinds, h, P, R, place, rows):
         number = 3 - (kinds[0] + kinds[1] + kinds[2])
         for k in range(number):
             x = both[k]
-            margin = x[12]
-            # of infinitely many roots one was taken, and another one may reach
-            if abs(root[4]) < DOUBLE:
-                margin = max(margin, 0.0)
-            if store(arm, x[:12], margin, rows[at]):
+            if store(arm, x[:12], doubted(x[12], root[4]), rows[at]):
                 at += 1
     return at
 

@@ -9,7 +9,6 @@ from ....formulas.ik.slides import position
 from ....formulas.ik.slides.position import moved, moved_back
 from .closed_arm import (
     ADDED,
-    DOUBLE,
     LOST,
     NEAR,
     RULE,
@@ -17,6 +16,7 @@ from .closed_arm import (
     across,
     brought,
     direction,
+    doubted,
     point,
     slides,
     store,
@@ -40,9 +40,7 @@ def fill(arm, R, p, rows):
             margin = min(x[6], wrist[6])
             if margin == -math.inf:
                 continue
-            # of infinitely many roots one was taken, and another one may serve
-            if abs(x[6]) < DOUBLE:
-                margin = max(margin, 0.0)
+            margin = doubted(margin, x[6])
             if store(arm, x[:6] + wrist[:6], margin, rows[at]):
                 at += 1
             elif arm[RULE, ADDED] and _lost(kinds, h, P, x, place):

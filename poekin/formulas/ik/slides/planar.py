@@ -20,6 +20,8 @@ from ..rotation_onto import rotated, rotation_onto
 from ..rounding import is_rounding
 from . import quadratic
 
+_ROUNDING = 0.0625  # 1 / 16: 16 u
+
 
 def with_outer(slides, h, P, n, across, R, p, root):
     """Two rows (x_1, y_1, ..., x_6, y_6, margin) of one root of `three_parallel.outer`.
@@ -36,6 +38,12 @@ def with_outer(slides, h, P, n, across, R, p, root):
         root[:2] + x[:6] + root[2:4] + last + (min(root[4], x[6]),),
         root[:2] + y[:6] + root[2:4] + last + (min(root[4], y[6]),),
     )
+
+
+def _size(P):
+    """Length of which rounding of places is a share."""
+    squares = dot(P[1], P[1]) + dot(P[2], P[2]) + dot(P[3], P[3])
+    return elementary.sqrt(squares + dot(P[4], P[4]) + dot(P[5], P[5]))
 
 
 def _of_two(slides, h, P, n, phi, r):
@@ -60,10 +68,10 @@ def _of_two(slides, h, P, n, phi, r):
     det = dot(n, cross(u, v))
     none = 0.0 * det
     margin = 1.0 + none
-    if is_rounding(0.25 * det, 1.0):
+    if is_rounding(_ROUNDING * det, 1.0):
         # one slides along the other: the way is left to the first, or is none of theirs
         off = dot(n, cross(u, y))
-        margin = none if is_rounding(0.0625 * off, elementary.sqrt(dot(y, y))) else none - 1.0
+        margin = none if is_rounding(_ROUNDING * off, _size(P)) else none - 1.0
         v = cross(n, u)
         det = 1.0 + none
     t = dot(n, cross(y, v)) / det
@@ -96,11 +104,9 @@ def _of_one(slides, h, P, n, turns, phi, r):
         z = P[2]
     squares = dot(y, y) - dot(z, z)
     t, w, margin = quadratic.roots(dot(u, u), dot(u, y), squares)
-    terms = dot(P[1], P[1]) + dot(P[4], P[4]) + dot(P[5], P[5])
-    here = elementary.sqrt(dot(y, y) + dot(z, z))
-    # a point on the axis that should turn it
-    if is_rounding(0.0625 * here, elementary.sqrt(terms)):
-        margin = min(margin, 0.0 * margin)
+    # a point on the axis that should turn it: any angle serves
+    if is_rounding(_ROUNDING * elementary.sqrt(dot(y, y) + dot(z, z)), _size(P)):
+        margin = 0.0 * margin
     one = add(y, scale(t, u))
     other = add(y, scale(w, u))
     return (

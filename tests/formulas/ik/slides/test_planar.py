@@ -119,7 +119,8 @@ def test_parallel_slides_have_no_margin_and_share_the_way_along_them(slides, siz
     """Any share of it serves, so the margin is that of a double root; across there is no way."""
     axes, P, n, across, R, p = straight(slides, (X, X, X))
     P = tuple(tuple(size * x for x in step) for step in P)
-    for off, margin in (((0, 0, 0), 0.0), ((0.5, 0, 0), 0.0), ((0, 0.5, 0), -1.0)):
+    nearly = (0, 1e-16, 0)  # which is rounding, though all that is left
+    for off, margin in (((0, 0, 0), 0.0), (nearly, 0.0), ((0.5, 0, 0), 0.0), ((0, 0.5, 0), -1.0)):
         place = tuple(size * (x + d) for x, d in zip(p, off, strict=True))
         for row in planar.with_outer(slides, axes, P, n, across, R, place, ROOT):
             assert row[12] == margin
@@ -127,3 +128,19 @@ def test_parallel_slides_have_no_margin_and_share_the_way_along_them(slides, siz
             ways = [row[2 + 2 * i] for i in range(3) if slides[i]]
             if margin == 0.0:
                 assert sum(ways) == pytest.approx(size * off[0], abs=1e-15 * size)
+
+
+@pytest.mark.parametrize("slides", list(ORDERS.values())[:3], ids=list(ORDERS)[:3])
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("noise", [(0.0, 0.0), (1e-16, 0.0), (-1e-16, 1e-16), (1e-16, 2e-16)])
+def test_a_point_on_the_axis_that_should_turn_it_has_no_margin(slides, size, noise):
+    """Any angle serves, whatever rounding makes of the point's distance from the axis."""
+    axes, P, n, across, R, _ = straight(slides, (X, X, X))
+    P = np.array(P)
+    P[2:4] = 0.0
+    off = np.array([*noise, 0.0])
+    place = size * (P[1:].sum(axis=0) + off)
+    steps = tuple(map(tuple, (size * P).tolist()))
+    for row in planar.with_outer(slides, axes, steps, n, across, R, tuple(place.tolist()), ROOT):
+        assert row[12] == 0.0
+        assert np.isfinite(row).all()
