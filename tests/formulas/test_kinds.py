@@ -61,6 +61,7 @@ rng = np.random.default_rng(1994)
 W, V = (0.3, -0.4, 0.5), (1.0, -2.0, 0.5)
 LONG = (1.9, -1.1, 0.8)
 X = (*W, *V)
+HALF_TURN = (2.0, 0.0, 0.0, *V)
 T1 = tuple(map(float, exponential.se3(W, V)))
 T2 = tuple(map(float, exponential.se3(LONG, V)))
 R1, R2 = T1[:9], T2[:9]
@@ -436,7 +437,8 @@ CASES = [
     (pose_error.planar_error, UNTURNED, (1.0, 0, 0, 0, -1.0, 0, 0, 0, -1.0), (0.0, 0.0, 1.0)),
     *[(pose_error.angle, w) for w in (W, (0.0, 0.0, 0.0), (2.0, 0.0, 0.1))],
     (pose_error.distance, X),
-    (pose_error.downhill, X),
+    *[(pose_error.differentiate, e, AXES, N) for e in (X, HALF_TURN)],
+    *[(pose_error.differentiate_direction, W, e, AXES, N) for e in (X, HALF_TURN)],
     (pose_error.remove_turn_about, W, AXES, N),
     (pose_error.across, W, V),
     (pose_error.keep_in_plane, W, AXES, N),

@@ -10,6 +10,7 @@ Source: the quaternion of `formulas.lie.quaternion`, 2 q_v where w >= 0.
 """
 
 from ...algebra import (
+    add,
     angular,
     column,
     cross,
@@ -88,16 +89,43 @@ def angle(turn):
     return 2.0 * elementary.asin(min(half_sine, 1.0))
 
 
-def downhill(e):
-    """(cos(phi / 2) turn; p* - p): J^T W of it is -d(e^T W e / 2)/dq, where W weighs all turns
-    alike.
+def differentiate(e, J, count):
+    """Makes the columns (omega; v) of a hybrid Jacobian -de/dq.
 
-    J^T W e itself is that only near the target: |turn| = 2 sin(phi / 2) grows with cos(phi / 2).
+    That of 2 sin(phi / 2) n is cos(phi / 2) omega + sin(phi / 2) n x omega: near the target it is
+    omega itself.
     """
-    turn = angular(e)
-    half_sine = 0.5 * elementary.sqrt(dot(turn, turn))
-    cosine = elementary.sqrt(max(1.0 - half_sine * half_sine, 0.0))
-    return twist(scale(cosine, turn), linear(e))
+    half, cosine = _half_turn(e)
+    for i in range(count):
+        V = column(J, i)
+        w = angular(V)
+        turn = add(scale(cosine, w), cross(half, w))
+        set_column(J, i, twist(turn, linear(V)))
+
+
+def differentiate_direction(a, e, J, count):
+    """Makes the columns of a hybrid Jacobian without the turn about a = R axis -de/dq, for the
+    smallest turn from a to R* axis.
+
+    So that it stays the smallest, a turn about a goes with omega, tan(phi / 2) (a x n) . omega; of
+    opposite directions there is none.
+    """
+    half, cosine = _half_turn(e)
+    across_both = cross(a, half)
+    for i in range(count):
+        V = column(J, i)
+        w = angular(V)
+        if cosine > 0.0:
+            about = dot(across_both, w) / cosine
+            set_column(J, i, twist(add(w, scale(about, a)), linear(V)))
+    differentiate(e, J, count)
+
+
+def _half_turn(e):
+    """(sin(phi / 2) n, cos(phi / 2)) of an error."""
+    half = scale(0.5, angular(e))
+    cosine = elementary.sqrt(max(1.0 - dot(half, half), 0.0))
+    return half, cosine
 
 
 def distance(e):

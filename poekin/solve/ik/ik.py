@@ -122,7 +122,8 @@ def ik(  # noqa: PLR0913 - options by keyword
     -----
     Accuracy: `success` means what `tol_position` and `tol_rotation` say of `Chain.fk`: the errors
     are computed anew. Where an arm has fewer coordinates than the task constrains and no
-    configuration reaches the target, q is a least of the weighted squares of both errors nearby.
+    configuration reaches the target, q is a nearby minimum of the weighted squares of p* - p and of
+    2 sin(phi / 2) n, where `rotation_error` is phi about n.
     Source: Chan and Lawrence 1988, Sugihara 2011 (error-scaled damping).
 
     Examples

@@ -9,7 +9,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...formulas.inverse import pose_error
 from ...groups.arrays import Array
 from .ik_problem import IKProblem
 
@@ -22,7 +21,7 @@ its rounding.
 """
 
 Slope = tuple[float, Array, Array]
-"""e^T W e, its Gauss-Newton matrix H = J^T W J and half its descent g, J^T W e near a solution."""
+"""e^T W e, its Gauss-Newton matrix H = J^T W J and half its descent g = J^T W e, where J = -de/dq."""
 
 
 def least_error(slope: Callable[[Array], Slope], q: Array, low: Array, high: Array) -> Array:
@@ -52,15 +51,10 @@ def least_error(slope: Callable[[Array], Slope], q: Array, low: Array, high: Arr
 
 
 def slope_at(problem: IKProblem, target: Array, q: Array) -> Slope:
-    """Slope at q (m,), in joint units, with the error of the compiled descent.
-
-    Its g is exact for an arm that has to trade position for rotation; others lose nothing by e.
-    """
+    """Slope at q (m,), in joint units, with the error of the compiled descent."""
     T, J = problem.fast.fk_jacobian(q, "hybrid")
     e = problem.error(T, target, J)
-    weights = problem.task.weights
-    size = float(weights @ e**2)
-    if problem.underactuated:
-        e = np.array(pose_error.downhill(e))
-    weighted = J.T * weights
+    problem.task.differentiate(T, e, J)
+    weighted = J.T * problem.task.weights
+    size = float(problem.task.weights @ e**2)
     return size, weighted @ J, weighted @ e

@@ -84,6 +84,14 @@ class Task:
             pose_error.remove_turn_about(axes, columns, J.shape[-1])
         return np.moveaxis(columns, (0, 1), (-2, -1))
 
+    def differentiate(self, T: Array, e: Array, J: Array) -> None:
+        """Makes J (6, m), of a pose T (4, 4) and without what the task leaves free, -de/dq."""
+        if self.name == "direction":
+            a = rotation_part(T) @ self.axis
+            pose_error.differentiate_direction(a, e, J, J.shape[-1])
+        else:
+            pose_error.differentiate(e, J, J.shape[-1])
+
 
 def pose_errors(chain: Chain, task: Task, q: Array, T: Array) -> Array:
     """Errors (N, 2), m and rad, of the poses of q (N, m) by the kernels of `Chain.fk` against

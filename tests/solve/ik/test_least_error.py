@@ -15,6 +15,10 @@ SETTINGS = Settings("pose", None, True, 1e-9, 1e-9, None, None, 100, 30, 0, Fals
 ARM = pk.Chain.from_space(
     [screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1)], se3.exp([0, 0, 0, 1.7, 0, 0])
 ).compile()
+WRIST = pk.Chain.from_space(
+    [screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute([0.6, 0.8, 0], [0, 0, 0.3])],
+    se3.exp([0.3, -0.4, 0.2, 0.7, 0.1, 0.2]),
+).compile()
 FREE = np.full(2, -np.inf), np.full(2, np.inf)
 
 
@@ -42,9 +46,14 @@ def test_no_step_is_taken_uphill():
     assert len(asked) == 31
 
 
-@pytest.mark.parametrize("task, exact", [("pose", True), ("position", True), ("direction", True)])
-def test_half_the_slope_of_the_error_is_that_of_differences_far_from_the_target_too(task, exact):
-    problem = make_problem(ARM, SETTINGS._replace(task=task))
+UNEQUAL = (0.2, 1.0, 3.0, 0.5, 1.0, 2.0)
+
+
+@pytest.mark.parametrize("weights", [None, UNEQUAL])
+@pytest.mark.parametrize("task", ["pose", "position", "rotation", "direction", "planar"])
+def test_half_the_slope_of_the_error_is_that_of_differences_far_from_the_target_too(task, weights):
+    arm = ARM if task == "planar" else WRIST
+    problem = make_problem(arm, SETTINGS._replace(task=task, weights=weights))
     target = se3.exp([0.9, -0.8, 1.1, 0.5, 0.7, 0.3])
     q = np.array([0.4, 0.9])
     size, H, g = slope_at(problem, target, q)
