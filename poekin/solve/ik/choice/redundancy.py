@@ -16,7 +16,8 @@ from ..ik_problem import IKProblem
 
 Objective = Literal["middle", "nearest", "manipulability"]
 STEPS = 25
-STEP = 0.5  # of the way that the objective asks for
+STEP = 0.5  # of the way that the objective asks for, at first
+LENGTH = 0.5  # rad or m, of a step along the gradient of the manipulability
 # rad or m, for the gradient of the manipulability: its error is far below what a step needs
 DIFFERENCE = 1e-6
 
@@ -61,7 +62,7 @@ def _improved(aim: Aim, targets: Array, best: Array) -> Array:
         better = solved & (new < value)
         best[better] = found[better]
         value[better] = new[better]
-        step = np.where(better, step, 0.5 * step)
+        step *= np.where(better, 2.0, 0.5)
     return best
 
 
@@ -94,9 +95,11 @@ class Aim(NamedTuple):
         z = self._way(q)
         of_task = J @ z[..., None]
         within_task = np.linalg.pinv(J) @ of_task
-        beside_task = z - within_task[..., 0]
-        moved = q + step[:, None] * beside_task
-        return domain.held(np.clip(moved, *domain.limits.T))
+        moves = step[:, None] * (z - within_task[..., 0])
+        if self.goal is None:
+            length = np.linalg.norm(moves, axis=1, keepdims=True)
+            moves *= LENGTH / np.maximum(length, LENGTH)
+        return domain.held(np.clip(q + moves, *domain.limits.T))
 
     def _way(self, q: Array) -> Array:
         """Way downhill: to the goal, or along the gradient by central differences, of size 1 at

@@ -27,8 +27,8 @@ def test_only_a_coordinate_with_two_limits_has_a_middle():
         [screw.prismatic(way) for way in np.eye(3)[[0, 0, 1, 2]]], np.eye(4), limits=limits
     )
     found = ik(arm, arm.fk(q0), task="position", q0=q0, secondary_objective="middle")
-    # the slides share each step, of half of the way: of 25 of them 0.75^25 = 7.5e-4 is left
-    np.testing.assert_allclose(found.q, [0, 2, 0.5, 0.5], rtol=0, atol=1e-3)
+    # the slides share each step: the second is one and the third two halves of the way
+    np.testing.assert_allclose(found.q, [0, 2, 0.5, 0.5], rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("limit", [np.inf, 10.0])
@@ -146,6 +146,37 @@ def test_the_way_to_more_manipulability_is_along_its_gradient_and_of_size_1_at_m
     np.testing.assert_allclose(aim._way(q)[0], -gradient / max(size, 1.0), rtol=1e-4, atol=1e-7)
 
 
+def test_no_step_to_more_manipulability_is_longer_than_half_a_radian():
+    asked = Settings("position", None, True, 1e-9, 1e-9, None, None, 5, 30, 0, False)
+    aim = redundancy.Aim(make_problem(planar(0.0, 0.5, 0.9).compile(), asked))
+    q = np.array([[0.3, 1.4, 1.4]] * 3)
+    steps = aim.moved(q, np.array([1e-3, 2e-3, 1e3])) - q
+    short, double, longest = np.linalg.norm(steps, axis=1)
+    np.testing.assert_allclose([double / short, longest], [2, 0.5], rtol=1e-9)
+    np.testing.assert_allclose(steps[2], 0.5 * steps[0] / short, rtol=1e-9)
+
+
+def test_the_manipulability_of_a_panda_is_the_most_along_its_self_motion():
+    arm = pk.load("panda").chain(tip="panda_link8")
+    q0 = np.array([-2.5, 1.3, 0.8, -2.6, 0, 0.3, 0.6])
+    T = arm.fk(q0)
+    found = ik(arm, T, q0=q0, secondary_objective="manipulability")
+    q, best = found.q, 0.0
+    for way in (1, -1):
+        # along the self-motion, a hundredth of a radian at a time
+        q, last = found.q, way * np.linalg.svd(arm.jacobian(found.q, "hybrid"))[2][-1]
+        for _ in range(150):
+            spare = np.linalg.svd(arm.jacobian(q, "hybrid"))[2][-1]
+            last = spare * np.sign(spare @ last)
+            q0 = np.clip(q + 0.01 * last, *arm.limits.T)
+            there = ik(arm, T, q0=q0, restarts=0)
+            if not there.success:
+                break
+            q = there.q
+            best = max(best, pk.manipulability(arm, q).pose.yoshikawa)
+    assert pk.manipulability(arm, found.q).pose.yoshikawa >= 0.999 * best > 0.0
+
+
 def test_an_arm_without_a_motion_of_the_task_stays_where_it_is():
     slides = pk.Chain.from_space([screw.prismatic(way) for way in np.eye(3)], np.eye(4))
     q0 = [0.1, 0.2, 0.3]
@@ -181,7 +212,7 @@ def test_what_is_no_aim_is_told(aim, q0, words):
     redundancy.check_objective(None, None)
 
 
-def test_an_aim_is_served_in_25_steps_each_half_as_long_after_one_that_is_no_better(monkeypatch):
+def test_an_aim_is_served_in_25_steps_each_twice_as_long_after_a_better_one_and_half_after_others(monkeypatch):
     moves, asked = [], []
 
     def moved(aim, q, step):
@@ -206,7 +237,7 @@ def test_an_aim_is_served_in_25_steps_each_half_as_long_after_one_that_is_no_bet
     assert found.tolist() == [[2, 2], [0, 0], [0, 0]]
     assert not q.any()
     steps = np.array([step for _, step in moves])
-    np.testing.assert_allclose(steps[:, 0], [0.5, 0.5, *(0.5 * 0.5**k for k in range(23))])
+    np.testing.assert_allclose(steps[:, 0], [0.5, 1, *(2 * 0.5**k for k in range(23))])
     np.testing.assert_allclose(steps[:, 1:], 0.5 * 0.5 ** np.arange(25.0)[:, None] * [1, 1])
 
 
