@@ -137,12 +137,12 @@ EQUATIONS: dict[str, str] = {
         r"R = e^{[h_1] x_1} e^{[h_2] x_2} e^{[h_3] x_3}, \quad "
         r"h_1 \cdot e^{[h_2] x_2} h_3 = h_1 \cdot R h_3"
     ),
-    "poekin.formulas.ik.position": (
-        r"p = e^{[h_1] x_1} (P_1 + e^{[h_2] x_2} y), \quad y = P_2 + e^{[h_3] x_3} P_3"
-    ),
     "poekin.formulas.ik.rotation_onto": (
         r"e^{[k]\theta} a = b, \quad "
         r"(\cos\theta, \sin\theta) \sim ((k \times a) \cdot (k \times b),\; k \cdot (a \times b))"
+    ),
+    "poekin.formulas.ik.turned_component": (
+        r"w \cdot e^{[k]\theta} a = A \cos\theta + B \sin\theta + C"
     ),
     "poekin.formulas.ik.three_parallel": (
         r"h_2 \cdot R' h_6 = h_2 \cdot e^{[h_5] x_5} h_6, \quad "

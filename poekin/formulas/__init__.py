@@ -258,7 +258,7 @@ BESIDE = {
     "ik.rotation_onto": "closed forms of inverse kinematics are none of the paper's subjects",
     "ik.cones": "closed forms of inverse kinematics are none of the paper's subjects",
     "ik.orientation": "closed forms of inverse kinematics are none of the paper's subjects",
-    "ik.position": "closed forms of inverse kinematics are none of the paper's subjects",
+    "ik.turned_component": "closed forms of inverse kinematics are none of the paper's subjects",
     "ik.three_parallel": "closed forms of inverse kinematics are none of the paper's subjects",
     "ik.rounding": "comparisons of the closed forms that know a scalar's rounding",
     "inverse.damped_step": "inverse kinematics is none of the paper's subjects",

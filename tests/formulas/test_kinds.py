@@ -15,10 +15,10 @@ from poekin.formulas.ik import (
     circle_line,
     cones,
     orientation,
-    position,
     rotation_onto,
     rounding,
     three_parallel,
+    turned_component,
     two_circles,
 )
 from poekin.formulas.ik.elimination import (
@@ -28,8 +28,7 @@ from poekin.formulas.ik.elimination import (
     null_rows,
     resultant,
 )
-from poekin.formulas.ik.slides import circle_and_line, planar, quadratic, two_lines
-from poekin.formulas.ik.slides import position as slides_position
+from poekin.formulas.ik.slides import circle_and_line, planar, position, quadratic, two_lines
 from poekin.formulas.inverse import confirmed, damped_step, least_squares, pose_error
 from poekin.formulas.kinematics import (
     columns,
@@ -245,8 +244,7 @@ CASES = [
     (cones.roots, (0.0, 0.6, 0.8), V, (0.0, 0.6, 0.8), W),
     (cones.rotation_pair, (0.0, 0.6, 0.8), V, (1.0, 0.0, 0.0), W, LONG),
     (orientation.roots, ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (1.0, 0.0, 0.0), R1),
-    (position.turned_component, W, (0.0, 0.6, 0.8), V),
-    *[(position.roots, WRIST_AXES, WRIST_STEPS, p) for p in (REACHED, (5.0, 0.5, 0.5))],
+    (turned_component.turned_component, W, (0.0, 0.6, 0.8), V),
     *[(rotation_onto.rotation_onto, (0.0, 0.6, 0.8), V, b) for b in (W, (0.0, 0.0, 0.0))],
     (rotation_onto.rotated, (0.0, 0.6, 0.8), 0.28, 0.96, V),
     *[(rounding.is_rounding, x, 1.0) for x in (0.0, 0.5)],
@@ -298,11 +296,11 @@ CASES = [
     *[(quadratic.roots, 0.5, h, -0.25) for h in (0.75, -0.75)],
     *[(quadratic.roots, 0.5, 0.25, e) for e in (0.75, 0.125)],
     (quadratic.roots, 0.5, 0.0, 0.0),
-    *[(slides_position.roots, slides, WRIST_AXES, WRIST_STEPS, REACHED) for slides in THREE_JOINTS],
-    *[(slides_position.across, w) for w in (W, V, (0.0, 0.6, 0.8))],
+    *[(position.roots, slides, WRIST_AXES, WRIST_STEPS, REACHED) for slides in THREE_JOINTS],
+    *[(position.across, w) for w in (W, V, (0.0, 0.6, 0.8))],
     *[
         (f, slide, (0.0, 0.6, 0.8), 0.28, 0.96, V)
-        for f in (slides_position.moved, slides_position.moved_back)
+        for f in (position.moved, position.moved_back)
         for slide in (False, True)
     ],
     *[(two_lines.roots, (0.5, 0.0, 0.75, 0.0, 0.375), second) for second in TWO_LINES],
@@ -515,7 +513,6 @@ DIVIDE = (
     circle_line,
     cones,
     orientation,
-    position,
     rotation_onto,
     rounding,
     three_parallel,
@@ -529,7 +526,7 @@ DIVIDE = (
     circle_and_line,
     planar,
     quadratic,
-    slides_position,
+    position,
     two_lines,
     damped_step,
     least_squares,

@@ -8,8 +8,8 @@ The latter gives two x_2 (`circle_line`), each with one x_1 and x_3. Accuracy: t
 
 from ...algebra import dot, rotate
 from . import circle_line
-from .position import turned_component
 from .rotation_onto import rotated, rotation_onto
+from .turned_component import turned_component
 
 
 def roots(h, across, R):

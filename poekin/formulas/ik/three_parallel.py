@@ -16,9 +16,9 @@ the triangle of the parallel axes. Accuracy: that of `two_circles`
 from ...algebra import add, dot, rotate, subtract, unrotate
 from .. import elementary
 from . import circle_line, two_circles
-from .position import turned_component
 from .rotation_onto import rotated, rotation_onto
 from .rounding import least, told
+from .turned_component import turned_component
 
 
 def outer(h, P, R, p):

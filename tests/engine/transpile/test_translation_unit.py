@@ -12,7 +12,7 @@ from poekin import algebra
 from poekin.engine.transpile.c_types import DOUBLE, CRow, CTable, CTuple
 from poekin.engine.transpile.translation_unit import External, TranslationUnit
 from poekin.engine.transpile.values import Argument
-from poekin.formulas.ik import circle_conic, cones, orientation, position, two_circles
+from poekin.formulas.ik import circle_conic, cones, orientation, two_circles
 from poekin.formulas.lie import quaternion
 
 from .compiled_c import library, run, text_of
@@ -86,7 +86,6 @@ def test_the_text_of_formulas_is_the_same_on_every_run_in_ascii_and_without_long
         circle_conic.roots: [DOUBLE] * 6,
         two_circles.roots: [CTuple((DOUBLE,) * 5)] * 2,
         cones.roots: [v] * 4,
-        position.roots: [three, three, v],
         orientation.roots: [three, v, R],
     }
     texts = []

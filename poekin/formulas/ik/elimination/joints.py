@@ -14,8 +14,8 @@ Raghavan and Roth 1993.
 
 from ....algebra import add, cross, dot, rotate, subtract
 from ... import elementary
-from ..position import turned_component
 from ..rotation_onto import rotated
+from ..turned_component import turned_component
 
 
 def unit(c, s):

@@ -16,9 +16,9 @@ Source: Elias and Wen 2025, subproblems 4 to 6; Pieper 1968.
 from ....algebra import add, cross, dot, scale, subtract
 from ... import elementary
 from .. import two_circles
-from ..position import turned_component
 from ..rotation_onto import rotated, rotation_onto
 from ..rounding import told
+from ..turned_component import turned_component
 from . import circle_and_line, two_lines
 
 

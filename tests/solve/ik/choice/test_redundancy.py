@@ -212,7 +212,9 @@ def test_what_is_no_aim_is_told(aim, q0, words):
     redundancy.check_objective(None, None)
 
 
-def test_an_aim_is_served_in_25_steps_each_twice_as_long_after_a_better_one_and_half_after_others(monkeypatch):
+def test_an_aim_is_served_in_25_steps_that_double_after_a_better_one_and_halve_after_others(
+    monkeypatch,
+):
     moves, asked = [], []
 
     def moved(aim, q, step):

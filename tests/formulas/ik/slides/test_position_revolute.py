@@ -1,4 +1,4 @@
-"""Three joints that bring a point to a place against products of rotations in 60 digits."""
+"""Three revolute joints that bring a point to a place against products of rotations in 60 digits."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from poekin.formulas import elementary
-from poekin.formulas.ik import position
+from poekin.formulas.ik.slides import position
 from tests.formulas.ik.circle_roots import UNIT, apart
 from tests.formulas.ik.moved import angles, floats, jacobian, largest, place, rows_of, unit_vectors
 from tests.formulas.kinds import both
@@ -17,6 +17,7 @@ from tests.formulas.kinds import both
 elementary.provide(mpmath.mpf, mpmath.mp, series=False)
 FLOATS, COMPILED = both(position.roots)
 ZERO = (0.0, 0.0, 0.0)
+REVOLUTE = (False, False, False)
 
 
 def any_arm(rng):
@@ -61,7 +62,9 @@ def test_the_angles_are_found_and_every_row_reaches_the_place(draw, roots):
             h, P, x = draw(rng)
             p = place(h, [ZERO, *P], x)[0]
             reach = np.linalg.norm(P, axis=1).sum()
-            got = [row for row in roots(rows_of(h), rows_of(P), floats(p)) if row[6] >= 0.0]
+            got = [
+                row for row in roots(REVOLUTE, rows_of(h), rows_of(P), floats(p)) if row[6] >= 0.0
+            ]
             assert got
             errors = []
             for row in got:
@@ -82,7 +85,7 @@ def test_a_stretched_arm_is_a_double_root_near_margin_0(x3):
     with mpmath.workdps(60):
         for x in np.random.default_rng(62).uniform(-np.pi, np.pi, (50, 2)):
             p = place(h, [ZERO, *P], (*x, x3))[0]
-            got = position.roots(h, P, floats(p))
+            got = position.roots(REVOLUTE, h, P, floats(p))
             near = [row for row in got if row[6] > -64 * UNIT]
             errors = [
                 max(apart(a, b) for a, b in zip(angles(row), (*x, x3), strict=True)) for row in near
@@ -94,14 +97,14 @@ def test_out_of_reach_every_margin_is_below_0():
     h = rows_of(unit_vectors(np.random.default_rng(63), 3))
     P = rows_of(np.random.default_rng(64).normal(size=(3, 3)))
     for p in ((20.0, 0.0, 0.0), (0.0, -1e3, 1.0), (1e100, 0.0, 0.0)):
-        assert all(row[6] < 0.0 for row in position.roots(h, P, p))
+        assert all(row[6] < 0.0 for row in position.roots(REVOLUTE, h, P, p))
 
 
 def test_on_the_first_axis_the_first_angle_is_free():
     """An arm without offsets, the place on the axis: one of a continuum."""
     h = rows_of([(0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (0.0, 1.0, 0.0)])
     P = rows_of([(0.0, 0.0, 0.0), (0.5, 0.0, 0.0), (0.5, 0.0, 0.0)])
-    got = position.roots(h, P, (0.0, 0.0, 0.75))
+    got = position.roots(REVOLUTE, h, P, (0.0, 0.0, 0.75))
     assert all(row[6] == 0.0 for row in got)
     with mpmath.workdps(60):
         for row in got:
@@ -116,18 +119,8 @@ def test_nan_has_no_root(number, which):
     p = list(floats(place(h, [ZERO, *P], x)[0]))
     steps = [list(row) for row in P]
     (p if which == "p" else steps[1])[number] = math.nan
-    for row in position.roots(rows_of(h), rows_of(steps), tuple(p)):
+    for row in position.roots(REVOLUTE, rows_of(h), rows_of(steps), tuple(p)):
         assert not row[6] >= 0.0 or any(math.isnan(v) for v in row)
-
-
-def test_the_component_of_a_turned_vector_is_that_of_rodrigues():
-    w, k, a = ((0.3, -0.4, 0.5), (0.0, 0.6, 0.8), (1.0, -2.0, 0.5))
-    A, B, C = position.turned_component(w, k, a)
-    with mpmath.workdps(60):
-        for theta in (0.0, 0.3, -1.2, 3.0):
-            turned = place([k], [ZERO, a], [theta])[0]
-            expected = sum(mpmath.mpf(x) * y for x, y in zip(w, turned, strict=True))
-            assert abs(A * math.cos(theta) + B * math.sin(theta) + C - expected) < 1e-15
 
 
 def test_in_60_digits_it_gives_60_digits():
@@ -136,6 +129,6 @@ def test_in_60_digits_it_gives_60_digits():
         P = tuple(tuple(map(mpmath.mpf, v)) for v in ((1, 1, 0), (2, 0, 1), (3, 1, 0)))
         x = (mpmath.mpf("0.3"), mpmath.mpf("-0.4"), mpmath.mpf("1.1"))
         p = place(h, [ZERO, *P], x)[0]
-        got = [row for row in position.roots(h, P, tuple(p)) if row[6] >= 0]
+        got = [row for row in position.roots(REVOLUTE, h, P, tuple(p)) if row[6] >= 0]
         errors = [max(apart(a, b) for a, b in zip(angles(row), x, strict=True)) for row in got]
         assert min(errors) < mpmath.mpf(10) ** -56
