@@ -274,7 +274,11 @@ class Grid(Samples):
 
 def sample_numbers(numbers: ArrayLike, count: int) -> np.ndarray:
     """Numbers (N,) of samples, each below `count`. Raises: InputError, ShapeError."""
-    asked = np.asarray(numbers)
+    try:
+        asked = np.asarray(numbers)
+    except ValueError:
+        problem = "numbers: expected whole numbers (N,), got rows of different lengths"
+        raise ShapeError(problem) from None
     if asked.ndim != 1 or asked.dtype.kind not in "iu":
         raise ShapeError(f"numbers: expected whole numbers (N,), got {asked.dtype} {asked.shape}")
     if len(asked) and not (asked.min() >= 0 and asked.max() < count):

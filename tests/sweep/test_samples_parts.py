@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from poekin.errors import InputError
+from poekin.errors import InputError, ShapeError
 from poekin.model.chain import Chain
 from poekin.sweep import Cells, Grid, PoseGrid, PoseSamples, Random, Sobol
 from poekin.sweep.pose_samples import reached_box, read_samples, samples_of
@@ -67,6 +67,8 @@ def test_no_numbers_have_no_configurations_and_the_first_and_the_last_have_one()
     with pytest.raises(InputError) as caught:
         samples.configurations([3, 12, -2])
     assert says(caught.value, "numbers: expected 0 ... 9, got -2 ... 12")
+    with pytest.raises(ShapeError, match=r"numbers \(N,\), got rows of different lengths$"):
+        samples.configurations([[1, 2], [3]])  # pyright: ignore[reportArgumentType] - refused
 
 
 def test_a_box_is_that_of_the_first_100_000_places_rounded_to_a_nanometre():

@@ -156,7 +156,8 @@ def axis_angle(w: ArrayLike) -> AxisAngle:
 
     Notes
     -----
-    Accuracy: axis and angle within 5 u of themselves, from the smallest numbers to the largest.
+    Accuracy: the axis is within 5 u of itself, from the smallest numbers to the largest, and so is
+    an angle that is no subnormal number.
     Source: Modern Robotics calls it AxisAng3.
 
     Examples
