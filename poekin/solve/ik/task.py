@@ -88,9 +88,9 @@ class Task:
         """Makes J (6, m), of a pose T (4, 4) and without what the task leaves free, -de/dq."""
         if self.name == "direction":
             a = rotation_part(T) @ self.axis
-            pose_error.differentiate_direction(a, e, J, J.shape[-1])
+            pose_error.differentiate_direction(a, e, J, J.shape[1])
         else:
-            pose_error.differentiate(e, J, J.shape[-1])
+            pose_error.differentiate(e, J, J.shape[1])
 
 
 def pose_errors(chain: Chain, task: Task, q: Array, T: Array) -> Array:
