@@ -151,6 +151,8 @@ def test_no_step_to_more_manipulability_is_longer_than_half_a_radian():
     aim = redundancy.Aim(make_problem(planar(0.0, 0.5, 0.9).compile(), asked))
     q = np.array([[0.3, 1.4, 1.4]] * 3)
     steps = aim.moved(q, np.array([1e-3, 2e-3, 1e3])) - q
+    spare = np.linalg.svd(redundancy._jacobian(aim.problem, q)[0])[2][2]
+    np.testing.assert_allclose(steps[0], 1e-3 * spare * (spare @ aim._way(q)[0]), atol=1e-12)
     short, double, longest = np.linalg.norm(steps, axis=1)
     np.testing.assert_allclose([double / short, longest], [2, 0.5], rtol=1e-9)
     np.testing.assert_allclose(steps[2], 0.5 * steps[0] / short, rtol=1e-9)
